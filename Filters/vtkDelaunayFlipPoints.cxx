@@ -84,18 +84,18 @@ bool vtkDelaunayFlipPoints::KeepHeights(
   vtkNew<vtkDoubleArray> heights;
   heights->SetName(name.c_str());
   heights->SetNumberOfTuples(degrees->GetNumberOfPoints());
-  bool isWanted = always;
+  bool hasHeights = false;
   for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
   {
     const double height = degrees->GetData()->GetComponent(i, 2);
     heights->SetValue(i, height);
-    isWanted = isWanted || (std::isfinite(height) && height != 0.0);
+    hasHeights = hasHeights || (std::isfinite(height) && height != 0.0);
   }
-  if (isWanted && data->HasArray(name.c_str()))
+  if (data->HasArray(name.c_str()))
   {
-    return false;
+    return !hasHeights;
   }
-  if (isWanted)
+  if (hasHeights || always)
   {
     AddAttributes(data, data->AddArray(heights), 1 << vtkDataSetAttributes::SCALARS);
   }
@@ -206,7 +206,11 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(const MeshBlock
   if (!heights.empty())
   {
     const bool areOwn = this->SegmentHeights == SEGMENT_HEIGHTS_OWN;
-    KeepHeights(given->GetPoints(), heights, areOwn, placed->GetPointData());
+    if (!KeepHeights(given->GetPoints(), heights, areOwn, placed->GetPointData()))
+    {
+      summary.Warnings.push_back(
+        { block.Name, "segments: z left out, because they have an array \"" + heights + '"' });
+    }
   }
   return placed;
 }

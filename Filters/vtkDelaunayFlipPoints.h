@@ -423,7 +423,7 @@ protected:
    * Adds z of points to their data. Their places on a sphere do not have it.
    * @param name the array.
    * @param always whether also if z = 0 throughout.
-   * @returns false if there is such an array already, and z would have been added.
+   * @returns false if there is such an array already, and z is lost that is not 0 throughout.
    */
   static bool KeepHeights(
     vtkPoints* degrees, const std::string& name, bool always, vtkPointData* data);

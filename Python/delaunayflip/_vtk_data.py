@@ -165,18 +165,19 @@ def describe_latitudes(latitudes):
             "x is the longitude and y the latitude")
 
 
-def keep_heights(given, name, data, always=False):
+def keep_heights(given, name, data, always=False, owner="the points"):
     """Adds z of the points of a dataset to point data, as an array. If z = 0 throughout, only if `always`.
-    Returns the text of a warning if there is such an array already, or ""."""
+    Returns the text of a warning if there is such an array already, and z is not 0 throughout, or ""."""
     if given.GetPoints() is None:
         return ""
     vtk, mesh = vtk_of(given), vtk_of(given).model.vtkPolyData()
     mesh.SetPoints(given.GetPoints())
     heights = vtk.read(mesh).points[:, 2].astype(float)
-    if not (always or numpy.nan_to_num(heights, posinf=0, neginf=0).any()):
-        return ""
+    has_heights = numpy.nan_to_num(heights, posinf=0, neginf=0).any()
     if data.HasArray(name):
-        return f'z left out, because the points have an array "{name}"'
+        return f'z left out, because {owner} have an array "{name}"' if has_heights else ""
+    if not (always or has_heights):
+        return ""
     array = vtk.support.numpy_to_vtk(heights, True)
     array.SetName(name)
     add_attributes(data, data.AddArray(array), [data.SCALARS])

@@ -84,7 +84,9 @@ class vtkDelaunayFlipPoints(Regions, Filter):
         placed = self._take_places(segments, "segments: ")
         if heights and placed is not segments:
             are_own = self.segment_heights == self.SEGMENT_HEIGHTS_OWN
-            keep_heights(segments, heights, placed.GetPointData(), are_own)
+            trouble = keep_heights(segments, heights, placed.GetPointData(), are_own, "they")
+            if trouble:
+                self._warnings.append((self._where, "segments: " + trouble))
         return placed
 
     def _flip(self, data, segments, output):

@@ -418,7 +418,8 @@ def _place_meshes(cloud, segments, name, are_own):
         segments, trouble = place_points(given)
         _warn(trouble and "segments: " + trouble, 5)
         if not taken:
-            keep_heights(given, name, segments.GetPointData(), always=are_own)
+            trouble = keep_heights(given, name, segments.GetPointData(), are_own, "they")
+            _warn(trouble and "segments: " + trouble, 5)
     return placed, segments
 
 

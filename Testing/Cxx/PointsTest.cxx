@@ -866,6 +866,23 @@ TEST(FromPoints, HeightsOfStations)
   taken->DegreesOn();
   ExpectHolds(RunToWarning(taken), "z left out, because the points have an array \"Height\"");
   EXPECT_EQ(taken->GetOutput()->GetPointData()->GetArray("Height")->GetTuple1(9), 9.0);
+  for (const double z : { 0.0, 5.0 })
+  {
+    const auto lines = MakeLines({ { 11, 12, z }, { 14, 13, z } }, { { 0, 1 } });
+    AddNumbers(lines->GetPointData(), "Height", 2, 0);
+    PointsFilter filter(ToMesh(stations));
+    filter->SetSegmentsData(lines);
+    filter->SetSegmentHeightsToOwn();
+    filter->SetProjectionToSphere();
+    filter->DegreesOn();
+    filter.Run();
+    EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
+    EXPECT_EQ(filter.GetWarnings().size(), z == 0.0 ? 0u : 1u);
+    for (const std::string& warning : filter.GetWarnings())
+    {
+      ExpectHolds(warning, "segments: z left out, because they have an array \"Height\"");
+    }
+  }
 }
 
 TEST(FromPoints, RingsWithoutAreaAreLeftOut)

@@ -937,6 +937,14 @@ class SamePoints(Pair, unittest.TestCase):
                     self.assertIn("Height", str(told["meshes"]))
             if degrees:
                 add_array(cloud.GetPointData(), "Height", numpy.arange(cloud.GetNumberOfPoints()))
+                vtk_to_numpy(segments.GetPoints().GetData())[:, 2] = 7
+                named = vtkPolyData()
+                named.ShallowCopy(segments)
+                add_array(named.GetPointData(), "Height", numpy.arange(named.GetNumberOfPoints()))
+                for heights in (0, 2):
+                    told = self.expect_same(cloud, lambda points, heights=heights: (
+                        prepare(points), points.SetSegmentsData(named), points.SetSegmentHeights(heights)))
+                    self.assertIn('segments: z left out, because they have an array "Height"', str(told["warnings"]))
                 told = self.expect_same(cloud, prepare)
                 self.assertIn('z left out, because the points have an array "Height"', told["warnings"][0])
 
