@@ -96,6 +96,21 @@ void PolyDataBridge::RequireValidIds() const
   }
 }
 
+namespace
+{
+/// A text that only equal values have: a number with all of its digits, whatever its type.
+std::string DescribeValue(const vtkVariant& value)
+{
+  if (!value.IsFloat() && !value.IsDouble())
+  {
+    return value.ToString();
+  }
+  const double number = value.ToDouble();
+  constexpr int Digits = std::numeric_limits<double>::max_digits10;
+  return vtkMath::IsNan(number) ? "nan" : FormatNumber(number + 0.0, Digits); // 0 and -0 are equal
+}
+}
+
 /// Labels count from 0 in the order of appearance in the cells. The array may hold numbers or
 /// strings, with any number of components.
 void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserver& observer)
@@ -145,7 +160,7 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
     }
     else
     {
-      key += array->GetVariantValue(i).ToString() + '\0';
+      key += DescribeValue(array->GetVariantValue(i)) + '\0';
     }
     if ((i + 1) % width == 0)
     {

@@ -214,6 +214,42 @@ std::int64_t CountBytes(vtkDataArray* array)
   return array->GetNumberOfValues() * array->GetDataTypeSize();
 }
 
+/// Writes a value of an array that is not of numbers, but may have some, each of its own type.
+void PutValue(const vtkVariant& value, Message& message)
+{
+  const bool isReal = value.IsFloat() || value.IsDouble();
+  const bool isNumber = value.IsNumeric();
+  Put(message, std::array<int, 3>{ static_cast<int>(value.GetType()), isReal, isNumber });
+  if (isReal)
+  {
+    Put(message, value.ToDouble());
+  }
+  else if (isNumber)
+  {
+    Put(message, static_cast<std::int64_t>(value.ToTypeInt64()));
+  }
+  else
+  {
+    Put(message, std::string(value.ToString()));
+  }
+}
+
+/// Reads such a value. Others than numbers and texts are texts, and one that is nothing stays so.
+vtkVariant GetValue(MessageReader& reader)
+{
+  const auto [type, isReal, isNumber] = reader.Get<std::array<int, 3>>();
+  if (isReal)
+  {
+    return vtkVariant(vtkVariant(reader.Get<double>()), type);
+  }
+  if (isNumber)
+  {
+    return vtkVariant(vtkVariant(static_cast<vtkTypeInt64>(reader.Get<std::int64_t>())), type);
+  }
+  const auto text = reader.Get<std::string>();
+  return type == VTK_VOID ? vtkVariant() : vtkVariant(text);
+}
+
 /// Writes tuples of all arrays.
 void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
 {
@@ -235,7 +271,7 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
     }
     for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
     {
-      Put(message, std::string(array->GetVariantValue(value).ToString()));
+      PutValue(array->GetVariantValue(value), message);
     }
   }
 }
@@ -261,7 +297,7 @@ vtkSmartPointer<vtkDataSetAttributes> GetTuples(Message message, vtkIdType count
     {
       for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
       {
-        array->SetVariantValue(value, vtkVariant(reader.Get<std::string>()));
+        array->SetVariantValue(value, GetValue(reader));
       }
     }
     AddAttributes(data, data->AddArray(array), attributes);

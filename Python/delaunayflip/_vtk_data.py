@@ -130,8 +130,16 @@ class Vtk:
                 f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
         if isinstance(array, self.core.vtkDataArray):
             return number_tuples(self.view(array))
-        texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
+        texts = [_describe_value(array.GetVariantValue(i)) for i in range(array.GetNumberOfValues())]
         return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
+
+
+def _describe_value(value):
+    """A text that only equal variants have: a number with all of its digits, whatever its type."""
+    if not (value.IsFloat() or value.IsDouble()):
+        return value.ToString()
+    number = value.ToDouble() + 0.0  # 0 and -0 are equal
+    return "nan" if number != number else f"{number:.17g}"
 
 
 def pass_points(data, output):

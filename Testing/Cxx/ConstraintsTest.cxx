@@ -249,7 +249,17 @@ TEST(Regions, OfAnyArrayKeepTheirBorders)
   EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "oak", "elm" })), 0);
   EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "a", "b", "a", "b" }, 2)), 1);
   EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "a", "b", "a", "c" }, 2)), 0);
-  EXPECT_EQ((CountFlips<vtkVariantArray, vtkVariant>({ vtkVariant("some"), vtkVariant() })), 0);
+  const auto countOfVariants = [](const vtkVariant& one, const vtkVariant& other) {
+    return CountFlips<vtkVariantArray, vtkVariant>({ one, other });
+  };
+  EXPECT_EQ(countOfVariants("some", vtkVariant()), 0);
+  EXPECT_EQ(countOfVariants(1.23456789, 1.23456788), 0);
+  EXPECT_EQ(countOfVariants(1.23456789, 1.23456789), 1);
+  EXPECT_EQ(countOfVariants(1.2345678f, 1.2345679f), 0);
+  EXPECT_EQ(countOfVariants(std::nan(""), -std::nan("")), 1);
+  EXPECT_EQ(countOfVariants(0.0, -0.0), 1);
+  EXPECT_EQ(countOfVariants(2, 2.0), 1);
+  EXPECT_EQ(countOfVariants(1LL << 60, (1LL << 60) + 1), 0);
   EXPECT_EQ((CountFlips<vtkBitArray, int>({ 1, 1 })), 1);
   EXPECT_EQ((CountFlips<vtkBitArray, int>({ 1, 0 })), 0);
   EXPECT_EQ((CountFlips<vtkSOADataArrayTemplate<float>, float>({ 1.f, 1.f })), 1);

@@ -3,7 +3,7 @@
 """Meshes of the tests under mpirun, the same in every process, and how they are divided."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray, vtkVariant, vtkVariantArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 import delaunayflip
@@ -63,6 +63,12 @@ def add_array(data, name, values):
     return array
 
 
+def make_variant(slot):
+    """A number of many digits, a text, an integer of 64 bits, or nothing."""
+    values = slot + 0.123456789, f"text {slot}", 2**60 + int(slot)
+    return vtkVariant(values[slot % 4]) if slot % 4 < 3 else vtkVariant()
+
+
 def make_piece(points, triangles, slots, ids):
     """The piece with the triangles `slots`, their data, an array without a name and, if `ids`, global
     point ids. Its points are only those that it needs."""
@@ -80,6 +86,11 @@ def make_piece(points, triangles, slots, ids):
     for slot in slots:
         names.InsertNextValue(f"triangle {slot}")
     piece.GetCellData().AddArray(names)
+    variants = vtkVariantArray()
+    variants.SetName("variant")
+    for slot in slots:
+        variants.InsertNextValue(make_variant(slot))
+    piece.GetCellData().AddArray(variants)
     if ids:
         numbers = numpy_to_vtkIdTypeArray(used.astype(np.int64), deep=1)
         numbers.SetName("GlobalPointIds")

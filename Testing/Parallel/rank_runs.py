@@ -85,8 +85,11 @@ def check_data(points, output):
         return
     slots = vtk_to_numpy(output.GetCellData().GetArray("slot"))
     names = output.GetCellData().GetAbstractArray("name")
+    variants = output.GetCellData().GetAbstractArray("variant")
     for cell, slot in enumerate(slots):
         require(names.GetValue(cell) == f"triangle {slot}", "a name is lost")
+        found, given = variants.GetValue(cell), rank_meshes.make_variant(slot)
+        require(found.GetType() == given.GetType() and found == given, f"the variant of {slot} became {found!r}")
     cells, points = output.GetCellData(), output.GetPointData()
     require(cells.GetScalars() is cells.GetPedigreeIds() is not None, "an attribute is lost")
     arrays = [points.GetArray(i) for i in range(points.GetNumberOfArrays())]
