@@ -155,6 +155,8 @@ std::string RemoveOthers(vtkPolyData* source)
   return "point arrays of the source left out, which have no numbers or too few tuples: " + names;
 }
 
+constexpr char MaskName[] = "vtkValidPointMask"; // as vtkProbeFilter calls it
+
 /// The arrays that are interpolated: some of a mesh from points, and their z.
 class Columns
 {
@@ -198,7 +200,7 @@ public:
     return values;
   }
 
-  /// Writes the arrays. Those that they replace take their attributes along.
+  /// Writes the arrays. Those that they or the mask replace take their attributes along.
   /// @param values at places, which come again until there are `count`.
   void Scatter(const std::vector<double>& values, vtkIdType count, vtkPointData* output) const
   {
@@ -209,6 +211,7 @@ public:
       output->RemoveArray(array->GetName());
     }
     output->RemoveArray(this->Elevation->GetName());
+    output->RemoveArray(MaskName);
     const auto add = [&](vtkDataArray* like, int attributes)
     {
       const auto array = MakeArray(like, count);
@@ -341,13 +344,12 @@ struct Source
     const std::vector<std::int32_t>& triangles, vtkIdType count, vtkPointData* output)
   {
     vtkNew<vtkCharArray> mask;
-    mask->SetName("vtkValidPointMask"); // as vtkProbeFilter calls it
+    mask->SetName(MaskName);
     mask->SetNumberOfTuples(count);
     for (vtkIdType i = 0; i < count; ++i)
     {
       mask->SetValue(i, static_cast<char>(triangles[i % triangles.size()] >= 0));
     }
-    output->RemoveArray(mask->GetName());
     output->AddArray(mask);
   }
 };

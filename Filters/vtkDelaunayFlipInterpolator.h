@@ -45,9 +45,9 @@
  * but keep those in arrays that the segments have, too.
  *
  * An array is the active scalars, vectors and so on if it is in the source, unless the first input
- * has others. One that replaces an array of the first input is not what that was. Elevation is the active scalars if there are none. A place outside of all triangles
- * has NaN, or see Outside. So has a place that is not finite. Port 1: the table of iterations of
- * the triangulation.
+ * has others. One that replaces an array of the first input is not what that was. Elevation is the
+ * active scalars if there are none. A place outside of all triangles has NaN, or see Outside. So
+ * has a place that is not finite. Port 1: the table of iterations of the triangulation.
  *
  * Linear functions of x and y are reproduced within rounding, by both methods, except on a sphere.
  * At a point of the source the value is that of the point; of several at one place, that with the

@@ -206,7 +206,6 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         core, support = vtk_of(output).core, vtk_of(output).support
         mask = support.numpy_to_vtk((triangles[rows] >= 0).astype(numpy.int8), True, core.VTK_CHAR)
         mask.SetName(_MASK)
-        output.GetPointData().RemoveArray(_MASK)
         output.GetPointData().AddArray(mask)
         return ""
 
@@ -249,10 +248,10 @@ class Columns:
         return numpy.concatenate([column.astype(float) for column in columns], axis=1)
 
     def scatter(self, values, output):
-        """Writes the arrays of values at places; None: there are none. Those that they replace take their
-        attributes along."""
+        """Writes the arrays of values at places; None: there are none. Those that they or the mask
+        replace take their attributes along."""
         first = 0
-        for name in (*(array.GetName() for array in self._arrays), self._elevation):
+        for name in (*(array.GetName() for array in self._arrays), self._elevation, _MASK):
             output.RemoveArray(name or "")
         for like, width in zip(self._arrays, self._widths):
             kind = numpy.float32 if like.GetDataType() == self._vtk.core.VTK_FLOAT else float
