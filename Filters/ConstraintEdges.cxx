@@ -640,6 +640,7 @@ void SegmentList::StoreEdges(const FlipSession& session, vtkPolyData* output) co
     ofPoints->SetValue(id, point.Segment < 0 ? -1 : this->Cells[point.Segment]);
     ++id;
   }
+  output->GetPointData()->RemoveArray(ofPoints->GetName()); // it may be an attribute
   output->GetPointData()->AddArray(ofPoints);
 }
 
