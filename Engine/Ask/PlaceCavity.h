@@ -41,97 +41,6 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlaceOffset FindCentre(
   return { toFirst.U + centre.U, toFirst.V + centre.V };
 }
 
-/// The triangles with a place in their circumcircle that can be reached from the place without
-/// crossing a segment: the ones that an insertion of the place would replace. No vertex is inside
-/// of their union. So they form a tree, and their boundary is one ring. A walk along it comes to
-/// each triangle three times, so the centres of the first ones are kept.
-template <typename Frame>
-class PlaceCavity
-{
-public:
-  DELAUNAYFLIP_HOST_DEVICE explicit PlaceCavity(const Frame& frame)
-    : Seen(frame)
-  {
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(CornerId corner) const
-  {
-    return this->Seen.GetPoint(this->Seen.GetVertex(corner));
-  }
-
-  /// The vertex of a corner, as seen from the place.
-  DELAUNAYFLIP_HOST_DEVICE SeenPoint See(CornerId corner) const
-  {
-    return { this->GetPoint(corner), this->Seen.GetPlace() };
-  }
-
-  /// The centre of the circumcircle of a triangle of the cavity, from the place.
-  /// @param kept its number among the kept ones, or NotKept; becomes a number if there is room.
-  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle, int& kept)
-  {
-    if (kept != NotKept)
-    {
-      return { this->KeptCentres[kept][0], this->KeptCentres[kept][1] };
-    }
-    const PlaceOffset centre = FindCentre(this->Seen, this->GetPoint(MakeCorner(triangle, 0)),
-      this->GetPoint(MakeCorner(triangle, 1)), this->GetPoint(MakeCorner(triangle, 2)));
-    if (this->NumberOfKept < MostKept)
-    {
-      kept = this->NumberOfKept++;
-      this->Kept[kept] = triangle;
-      this->KeptCentres[kept][0] = centre.U;
-      this->KeptCentres[kept][1] = centre.V;
-    }
-    return centre;
-  }
-
-  /// The corner on the other side of the edge opposite a corner of the cavity, if its triangle is
-  /// in the cavity, too; else NoCorner.
-  /// @param kept becomes the number of that triangle, if there is one, as for GetCentre.
-  DELAUNAYFLIP_HOST_DEVICE CornerId FindWithin(CornerId corner, int& kept) const
-  {
-    const CornerId across = this->Seen.FindBeyond(corner);
-    if (across == NoCorner)
-    {
-      return NoCorner;
-    }
-    const int found = this->FindKept(TriangleOf(across));
-    if (found != NotKept)
-    {
-      kept = found;
-      return across;
-    }
-    if (!this->Seen.IsInCircle(across))
-    {
-      return NoCorner;
-    }
-    kept = NotKept;
-    return across;
-  }
-
-  static constexpr int NotKept = -1;
-
-private:
-  static constexpr int MostKept = 8;
-
-  DELAUNAYFLIP_HOST_DEVICE int FindKept(TriangleId triangle) const
-  {
-    for (int i = 0; i < this->NumberOfKept; ++i)
-    {
-      if (this->Kept[i] == triangle)
-      {
-        return i;
-      }
-    }
-    return NotKept;
-  }
-
-  const Frame Seen; ///< A copy: through a reference, each access on a GPU would be one more load.
-  int NumberOfKept = 0;
-  TriangleId Kept[MostKept];
-  double KeptCentres[MostKept][2];
-};
-
 /// A corner of a polygon, from the place.
 struct AreaCorner
 {
@@ -213,6 +122,16 @@ private:
   double Twice = 0.0;
 };
 
+/// Whether the components of a sum that is 0 in exact arithmetic are small.
+/// @param size what they are relative to.
+DELAUNAYFLIP_HOST_DEVICE inline bool AreSmallSums(double u, double v, double size)
+{
+  constexpr double Tolerance = 1e-10;
+  constexpr double Least = 1e-200, Most = 1e200; // so that no sum underflows or overflows
+  const double sum = FindSize({ u, v }); // may be NaN
+  return sum <= Tolerance * size && size > Least && size < Most;
+}
+
 /// Whether weights and the offsets of their vertices fit together. In exact arithmetic the weighted
 /// sum of the offsets is 0. Next to triangles that are nearly on one line, such as those along a
 /// hull, centres are so far away that rounding can leave nothing of the areas.
@@ -228,14 +147,114 @@ public:
 
   DELAUNAYFLIP_HOST_DEVICE bool IsGood() const
   {
-    constexpr double Tolerance = 1e-10;
-    constexpr double Least = 1e-200, Most = 1e200; // so that no sum underflows or overflows
-    const double sum = FindSize({ this->SumU, this->SumV }); // may be NaN
-    return sum <= Tolerance * this->Size && this->Size > Least && this->Size < Most;
+    return AreSmallSums(this->SumU, this->SumV, this->Size);
   }
 
 private:
   double SumU = 0.0, SumV = 0.0, Size = 0.0;
+};
+
+/// The triangles with a place in their circumcircle that can be reached from the place without
+/// crossing a segment: the ones that an insertion of the place would replace. No vertex is inside
+/// of their union. So they form a tree, and their boundary is one ring. A walk along it comes to
+/// each triangle three times, so the centres of the first ones are kept.
+template <typename Frame>
+class PlaceCavity
+{
+public:
+  using Centre = PlaceOffset;
+  using Vertex = SeenPoint;
+  using Area = PolygonArea;
+  using Check = WeightCheck;
+
+  DELAUNAYFLIP_HOST_DEVICE explicit PlaceCavity(const Frame& frame)
+    : Seen(frame)
+  {
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(CornerId corner) const
+  {
+    return this->Seen.GetPoint(this->Seen.GetVertex(corner));
+  }
+
+  /// The vertex of a corner, as seen from the place.
+  DELAUNAYFLIP_HOST_DEVICE SeenPoint See(CornerId corner) const
+  {
+    return { this->GetPoint(corner), this->Seen.GetPlace() };
+  }
+
+  /// The centre of the circumcircle of a triangle of the cavity, from the place.
+  /// @param kept its number among the kept ones, or NotKept; becomes a number if there is room.
+  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle, int& kept)
+  {
+    if (kept != NotKept)
+    {
+      return { this->KeptCentres[kept][0], this->KeptCentres[kept][1] };
+    }
+    const PlaceOffset centre = FindCentre(this->Seen, this->GetPoint(MakeCorner(triangle, 0)),
+      this->GetPoint(MakeCorner(triangle, 1)), this->GetPoint(MakeCorner(triangle, 2)));
+    if (this->NumberOfKept < MostKept)
+    {
+      kept = this->NumberOfKept++;
+      this->Kept[kept] = triangle;
+      this->KeptCentres[kept][0] = centre.U;
+      this->KeptCentres[kept][1] = centre.V;
+    }
+    return centre;
+  }
+
+  /// The centre of the triangle that an edge of the boundary makes with the place.
+  DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindNewCentre(
+    const SeenPoint& from, const SeenPoint& to) const
+  {
+    return FindCentre(this->Seen.GetPlace(), from, to);
+  }
+
+  /// The corner on the other side of the edge opposite a corner of the cavity, if its triangle is
+  /// in the cavity, too; else NoCorner.
+  /// @param kept becomes the number of that triangle, if there is one, as for GetCentre.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindWithin(CornerId corner, int& kept) const
+  {
+    const CornerId across = this->Seen.FindBeyond(corner);
+    if (across == NoCorner)
+    {
+      return NoCorner;
+    }
+    const int found = this->FindKept(TriangleOf(across));
+    if (found != NotKept)
+    {
+      kept = found;
+      return across;
+    }
+    if (!this->Seen.IsInCircle(across))
+    {
+      return NoCorner;
+    }
+    kept = NotKept;
+    return across;
+  }
+
+  static constexpr int NotKept = -1;
+
+private:
+  static constexpr int MostKept = 8;
+
+  DELAUNAYFLIP_HOST_DEVICE int FindKept(TriangleId triangle) const
+  {
+    for (int i = 0; i < this->NumberOfKept; ++i)
+    {
+      if (this->Kept[i] == triangle)
+      {
+        return i;
+      }
+    }
+    return NotKept;
+  }
+
+  const Frame Seen; ///< A copy: through a reference, each access on a GPU would be one more load.
+  int NumberOfKept = 0;
+  TriangleId Kept[MostKept];
+  double KeptCentres[MostKept][2];
 };
 
 }

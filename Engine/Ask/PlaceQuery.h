@@ -91,7 +91,7 @@ struct AskedValues
     // At vertices, on the hull and on segments there are no natural weights. Each branch makes its
     // own frame: one that lives through both takes more registers of a GPU.
     double linearShare = 1.0;
-    if (this->IsNatural)
+    if (this->IsNatural && found.FindVertexSlot() < 0)
     {
       linearShare =
         this->TakeNatural(PlaceFrame(asked.Mesh, place, found.Triangle), found.Triangle, result);
@@ -116,42 +116,18 @@ struct AskedValues
       [&](VertexId vertex, double weight) { this->Add(vertex, share * weight, result); });
   }
 
-  /// Interpolates by natural neighbours.
+  /// Interpolates by natural neighbours at a place that is at no vertex.
   /// @returns the share of linear interpolation that has to be added.
   template <typename Frame>
   DELAUNAYFLIP_HOST_DEVICE double TakeNatural(
     const Frame& frame, TriangleId triangle, double* result) const
   {
-    double scale = 1.0;
-    double sum = 0.0, size = 0.0;
-    bool isGood = true, isFinite = false;
-    for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
+    NaturalSums sums;
+    if (this->AddNatural<false>(frame, triangle, sums, result))
     {
-      sum = 0.0;
-      size = 0.0;
-      this->Fill(result, 0.0);
-      isGood = VisitNaturalWeights(frame, triangle,
-        [&](VertexId vertex, double weight)
-        {
-          sum += weight * scale;
-          size += std::fabs(weight * scale);
-          this->Add(vertex, weight * scale, result);
-        });
-      isFinite = true;
-      for (int i = 0; i < this->Components; ++i)
-      {
-        result[i] /= sum;
-        isFinite = isFinite && delaunayflip::IsFinite(result[i]);
-      }
-      // Sums of large values may overflow. With weights of less than 1 in all they do not.
-      scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
+      return this->LeaveToLinear(sums, result);
     }
-    const bool areLeft = isGood && std::fabs(sum) > 0.0;
-    if (!areLeft) // weights have cancelled, as in slivers
-    {
-      return 1.0;
-    }
-    return this->LeaveToLinear(size / std::fabs(sum) - 1.0, result);
+    return TakePrecise(*this, frame, triangle, result);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const
@@ -175,16 +151,70 @@ struct AskedValues
   }
 
 private:
+  /// Sums over the weights of one place: of themselves, and of their magnitudes.
+  struct NaturalSums
+  {
+    double Sum = 0.0, Size = 0.0;
+  };
+
+  /// Does what TakeNatural does, with twice the digits. It is apart, and has copies, so that the
+  /// usual way keeps its registers.
+  template <typename Frame>
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE static double TakePrecise(
+    AskedValues values, Frame frame, TriangleId triangle, double* result)
+  {
+    NaturalSums sums;
+    const bool isGood = values.AddNatural<true>(frame, triangle, sums, result);
+    return isGood ? values.LeaveToLinear(sums, result) : 1.0;
+  }
+
+  /// @returns whether there are weights that rounding has left good.
+  template <bool IsPrecise, typename Frame>
+  DELAUNAYFLIP_HOST_DEVICE bool AddNatural(
+    const Frame& frame, TriangleId triangle, NaturalSums& sums, double* result) const
+  {
+    double scale = 1.0;
+    bool isGood = true, isFinite = false;
+    for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
+    {
+      sums = NaturalSums();
+      this->Fill(result, 0.0);
+      const auto add = [&](VertexId vertex, double weight)
+      {
+        sums.Sum += weight * scale;
+        sums.Size += std::fabs(weight * scale);
+        this->Add(vertex, weight * scale, result);
+      };
+      if constexpr (IsPrecise)
+      {
+        isGood = VisitPreciseWeights(frame, triangle, add);
+      }
+      else
+      {
+        isGood = VisitNaturalWeights(frame, triangle, add);
+      }
+      isFinite = true;
+      for (int i = 0; i < this->Components; ++i)
+      {
+        result[i] /= sums.Sum;
+        isFinite = isFinite && delaunayflip::IsFinite(result[i]);
+      }
+      // Sums of large values may overflow. With weights of less than 1 in all they do not.
+      scale = 0.25 * InvertPowerOfTwo(std::fabs(sums.Sum));
+    }
+    return isGood && std::fabs(sums.Sum) > 0.0; // else weights have cancelled, as in slivers
+  }
+
   /// Where triangles are not Delaunay, weights may have different signs, and values leave the range
   /// of the neighbours' values. This happens beside segments, and where points of a globe are not
   /// on a sphere. The more the weights cancel, the less natural ones count. So values leave that
   /// range by at most 1/64 of it, and stay continuous.
-  /// @param cancelled twice the sum of the weights with the other sign than the sum of all, divided
-  /// by that sum.
   /// @returns the share of linear interpolation.
-  DELAUNAYFLIP_HOST_DEVICE double LeaveToLinear(double cancelled, double* result) const
+  DELAUNAYFLIP_HOST_DEVICE double LeaveToLinear(const NaturalSums& sums, double* result) const
   {
     constexpr double Steepness = 8.0, Rounding = 1e-6;
+    // Twice the sum of the weights with the other sign than the sum of all, divided by that sum.
+    const double cancelled = sums.Size / std::fabs(sums.Sum) - 1.0;
     const double share = Steepness * cancelled - Rounding;
     if (share <= 0.0)
     {

@@ -7,6 +7,7 @@
 #include "PlaceCavity.h"
 #include "PlaceFrame.h"
 #include "PlaceWalk.h"
+#include "PreciseCavity.h"
 
 /// @file
 /// How much the vertices around a place count for the value there. Weights are told vertex by
@@ -93,6 +94,57 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
   visit(vertices[to], 1.0 - share);
 }
 
+/// Walks along the boundary of a cavity and calls visit(vertex, weight) for its vertices.
+/// @param cavity PlaceCavity or PreciseCavity. @param triangle has the place.
+/// @returns whether rounding has left the weights good.
+template <typename Cavity, typename Frame, typename Visit>
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE bool VisitAroundCavity(
+  Cavity& cavity, const Frame& frame, TriangleId triangle, const Visit& visit)
+{
+  typename Cavity::Check check;
+  int kept = Cavity::NotKept;
+  cavity.GetCentre(triangle, kept);
+  // Finds an edge of the boundary: goes on across the next edge until nothing is beyond.
+  CornerId first = MakeCorner(triangle, 0);
+  CornerId within = cavity.FindWithin(first, kept);
+  while (within != NoCorner)
+  {
+    if (TriangleOf(within) == triangle) // around a vertex, as only rounding can do
+    {
+      return false;
+    }
+    cavity.GetCentre(TriangleOf(within), kept);
+    first = PlaneMesh::Next(within);
+    within = cavity.FindWithin(first, kept);
+  }
+  CornerId opposite = first; // of an edge of the boundary
+  typename Cavity::Vertex end = cavity.See(PlaneMesh::Previous(first)); // of that edge
+  typename Cavity::Centre centre = // of its new triangle
+    cavity.FindNewCentre(cavity.See(PlaneMesh::Next(first)), end);
+  do
+  {
+    // Around the end of this edge, to the edge of the boundary that begins there. The centres on
+    // the way are the corners of the area that the vertex loses.
+    const VertexId vertex = frame.GetVertex(PlaneMesh::Previous(opposite));
+    const typename Cavity::Vertex begin = end;
+    typename Cavity::Area area(centre);
+    within = opposite;
+    while (within != NoCorner)
+    {
+      area.Add(cavity.GetCentre(TriangleOf(within), kept));
+      opposite = PlaneMesh::Next(within);
+      within = opposite == first ? NoCorner : cavity.FindWithin(opposite, kept);
+    }
+    end = cavity.See(PlaneMesh::Previous(opposite));
+    centre = cavity.FindNewCentre(begin, end);
+    area.Add(centre);
+    const double weight = area.GetTwice();
+    check.Add(weight, begin.Offset);
+    visit(vertex, weight);
+  } while (opposite != first);
+  return check.IsGood();
+}
+
 /// Calls visit(vertex, weight) for Sibson's natural neighbours of a place that is in a triangle and
 /// on none of its edges. A weight is twice the area that the place's Voronoi cell would take from
 /// that of the vertex (Watson 1992). Weights beyond a segment may be negative.
@@ -112,48 +164,16 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   }
 #endif
   PlaceCavity<Frame> cavity(frame);
-  WeightCheck check;
-  int kept = PlaceCavity<Frame>::NotKept;
-  cavity.GetCentre(triangle, kept);
-  // Finds an edge of the boundary: goes on across the next edge until nothing is beyond.
-  CornerId first = MakeCorner(triangle, 0);
-  CornerId within = cavity.FindWithin(first, kept);
-  while (within != NoCorner)
-  {
-    if (TriangleOf(within) == triangle) // around a vertex, as only rounding can do
-    {
-      return false;
-    }
-    cavity.GetCentre(TriangleOf(within), kept);
-    first = PlaneMesh::Next(within);
-    within = cavity.FindWithin(first, kept);
-  }
-  CornerId opposite = first; // of an edge of the boundary
-  SeenPoint end = cavity.See(PlaneMesh::Previous(first)); // of that edge
-  PlaceOffset centre =
-    FindCentre(frame.GetPlace(), cavity.See(PlaneMesh::Next(first)), end); // of its new triangle
-  do
-  {
-    // Around the end of this edge, to the edge of the boundary that begins there. The centres on
-    // the way are the corners of the area that the vertex loses.
-    const VertexId vertex = frame.GetVertex(PlaneMesh::Previous(opposite));
-    const SeenPoint begin = end;
-    PolygonArea area(centre);
-    within = opposite;
-    while (within != NoCorner)
-    {
-      area.Add(cavity.GetCentre(TriangleOf(within), kept));
-      opposite = PlaneMesh::Next(within);
-      within = opposite == first ? NoCorner : cavity.FindWithin(opposite, kept);
-    }
-    end = cavity.See(PlaneMesh::Previous(opposite));
-    centre = FindCentre(frame.GetPlace(), begin, end);
-    area.Add(centre);
-    const double weight = area.GetTwice();
-    check.Add(weight, begin.Offset);
-    visit(vertex, weight);
-  } while (opposite != first);
-  return check.IsGood();
+  return VisitAroundCavity(cavity, frame, triangle, visit);
+}
+
+/// VisitNaturalWeights with twice the digits, which takes many times as long.
+template <typename Frame, typename Visit>
+DELAUNAYFLIP_HOST_DEVICE bool VisitPreciseWeights(
+  const Frame& frame, TriangleId triangle, const Visit& visit)
+{
+  PreciseCavity<Frame> cavity(frame, triangle);
+  return VisitAroundCavity(cavity, frame, triangle, visit);
 }
 
 }

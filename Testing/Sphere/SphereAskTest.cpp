@@ -345,6 +345,54 @@ TEST(SphereAsk, StaysInRangeOfPointsThatAreNotOnASphere)
 }
 
 /// On an edge, and where all longitudes meet, there are many triangles around a place.
+/// Values around stations that are near each other, and beside them, where there are three other
+/// points on the whole sphere.
+/// @param size of the network, in radians.
+std::vector<double> InterpolateInNetwork(double size)
+{
+  const Point3 center = Normalize({ 0.3, -0.5, 0.8 });
+  const Point3 first = Normalize({ center[1], -center[0], 0.0 });
+  const Point3 second = { center[1] * first[2] - center[2] * first[1],
+    center[2] * first[0] - center[0] * first[2], center[0] * first[1] - center[1] * first[0] };
+  const auto place = [&](double u, double v)
+  { return Normalize(Add(center, Add(Scale(size * u, first), Scale(size * v, second)))); };
+  std::mt19937 random(18);
+  std::vector<Point3> points, places;
+  std::vector<double> values;
+  for (int i = 0; i < 20; ++i)
+  {
+    const double u = DrawIndex(random, 1000), v = DrawIndex(random, 1000);
+    points.push_back(place(0.001 * u, 0.001 * v));
+    values.push_back(i % 7);
+  }
+  for (const Point3& far : { Point3{ 0.8, 0.3, 0.1 }, Point3{ -0.5, -0.8, 0.3 },
+         Point3{ -0.3, 0.5, -0.8 }, Point3{ -0.4, 0.7, 0.2 } })
+  {
+    points.push_back(Normalize(far));
+    values.push_back(3.0);
+  }
+  for (int i = 0; i < 1600; ++i)
+  {
+    places.push_back(place(-1.01 + 0.08 * (i % 40), -1.03 + 0.08 * (i / 40)));
+  }
+  const AskedSphere asked(points);
+  return asked.Interpolate(values, places, InterpolationKind::Natural);
+}
+
+/// The smaller the network is, the less its curvature matters, and the farther away are the others.
+TEST(SphereAsk, FarPointsLeaveNaturalNeighbors)
+{
+  const std::vector<double> expected = InterpolateInNetwork(1e-4);
+  for (const double size : { 1e-5, 1e-6, 1e-7 })
+  {
+    const std::vector<double> found = InterpolateInNetwork(size);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_NEAR(expected[i], found[i], 0.02) << size << ' ' << i;
+    }
+  }
+}
+
 TEST(SphereAsk, InterpolatesInGrids)
 {
   std::vector<Point3> points;
