@@ -344,7 +344,6 @@ TEST(SphereAsk, StaysInRangeOfPointsThatAreNotOnASphere)
   }
 }
 
-/// On an edge, and where all longitudes meet, there are many triangles around a place.
 /// Values around stations that are near each other, and beside them, where there are three other
 /// points on the whole sphere.
 /// @param size of the network, in radians.
@@ -393,6 +392,7 @@ TEST(SphereAsk, FarPointsLeaveNaturalNeighbors)
   }
 }
 
+/// On an edge, and where all longitudes meet, there are many triangles around a place.
 TEST(SphereAsk, InterpolatesInGrids)
 {
   std::vector<Point3> points;
