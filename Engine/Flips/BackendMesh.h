@@ -191,6 +191,27 @@ public:
     }
   }
 
+  std::vector<std::int64_t> FindEnds(const std::vector<HalfEdgeId>& sides) override
+  {
+    const auto count = static_cast<std::int64_t>(sides.size());
+    std::vector<std::int64_t> ends(2 * sides.size());
+    Array<HalfEdgeId> listed = this->Backend.template MakeArray<HalfEdgeId>(count);
+    Array<std::int64_t> found = this->Backend.template MakeArray<std::int64_t>(2 * count);
+    this->RequireStates();
+    this->Backend.Upload(sides.data(), count, listed.Data());
+    const HalfEdgeId* from = listed.Data();
+    std::int64_t* to = found.Data();
+    const PointMeshView view = this->ViewHere();
+    this->Backend.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        to[2 * i] = view.Ids[view.GetStart(from[i])];
+        to[2 * i + 1] = view.Ids[view.GetEnd(from[i])];
+      });
+    this->Backend.Download(to, 2 * count, ends.data());
+    return ends;
+  }
+
   /// Finds how many more triangles have the less common orientation than at first.
   Defect FindTurnedTriangles() const override
   {

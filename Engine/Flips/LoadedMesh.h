@@ -133,6 +133,8 @@ public:
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
+  /// Finds the points at the start and the end of half-edges of a mesh from points.
+  virtual std::vector<std::int64_t> FindEnds(const std::vector<HalfEdgeId>& sides) = 0;
 
   /// Finds the triangles of a mesh from points that do not belong to the result. They stay in the
   /// mesh. From now on, what stores triangles, flip counts or neighbours leaves them out.

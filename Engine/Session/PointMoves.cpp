@@ -315,8 +315,11 @@ void PointRun::ListPins(LoadedMesh& mesh)
   const bool isListed = result.Pins.AreListed() || this->Points.GetCaller().NumberOfSegments == 0;
   if (!isListed)
   {
-    mesh.ViewOnHost([&](const PointMeshView& view)
-      { result.Pins.List(view, result.GetAllEdges(), this->Points.GetSegments()); });
+    const std::vector<SegmentEdge>& edges = result.GetAllEdges();
+    std::vector<HalfEdgeId> sides(edges.size());
+    std::transform(
+      edges.begin(), edges.end(), sides.begin(), [](const SegmentEdge& edge) { return edge.Side; });
+    result.Pins.List(edges, mesh.FindEnds(sides), this->Points.GetSegments());
   }
 }
 

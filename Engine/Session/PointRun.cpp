@@ -515,27 +515,30 @@ void PointRun::StoreUsedPoints(std::int64_t* ids)
 std::vector<std::int64_t> PointRun::ListSegmentEdges()
 {
   std::vector<std::int64_t> pairs;
-  const auto list = [&](const PointMeshView& view)
+  const auto list = [&](LoadedMesh& mesh)
   {
-    pairs.clear(); // of a GPU that has failed
+    std::vector<HalfEdgeId> sides;
+    std::vector<bool> areOnLeft;
     for (const SegmentEdge& edge : this->Result.Edges)
     {
-      if (!edge.IsFirst)
+      if (edge.IsFirst)
       {
-        continue;
+        sides.push_back(edge.Side);
+        areOnLeft.push_back(edge.IsOnLeft);
       }
-      std::int64_t from = view.Ids[view.GetStart(edge.Side)];
-      std::int64_t to = view.Ids[view.GetEnd(edge.Side)];
-      if (!edge.IsOnLeft)
+    }
+    pairs = mesh.FindEnds(sides);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      if (!areOnLeft[i])
       {
-        std::swap(from, to);
+        std::swap(pairs[2 * i], pairs[2 * i + 1]);
       }
-      pairs.insert(pairs.end(), { from, to });
     }
   };
-  if (!this->Result.Edges.empty()) // else without a copy of a mesh that is on a GPU
+  if (!this->Result.Edges.empty())
   {
-    this->TryOnBackend([&](LoadedMesh& mesh) { mesh.ViewOnHost(list); });
+    this->TryOnBackend(list);
   }
   return pairs;
 }

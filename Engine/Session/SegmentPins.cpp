@@ -10,7 +10,7 @@
 namespace delaunayflip
 {
 
-void SegmentPins::List(const PointMeshView& mesh, const std::vector<SegmentEdge>& edges,
+void SegmentPins::List(const std::vector<SegmentEdge>& edges, const std::vector<std::int64_t>& ends,
   const std::vector<Segment>& segments)
 {
   std::unordered_map<EdgeId, std::uint32_t> pins;
@@ -36,14 +36,10 @@ void SegmentPins::List(const PointMeshView& mesh, const std::vector<SegmentEdge>
       continue;
     }
     const Segment& segment = segments[edges[i].Segment];
-    for (const HalfEdgeId side : { edges[i - 1].Side, edges[i].Side })
+    for (std::size_t end = 2 * i - 2; end < 2 * i + 2; ++end) // of both edges
     {
-      for (const VertexId place : { mesh.GetStart(side), mesh.GetEnd(side) })
-      {
-        const std::int64_t point = mesh.Ids[place];
-        this->Points.push_back(point);
-        this->Between.push_back({ segment.From, point, segment.To });
-      }
+      this->Points.push_back(ends[end]);
+      this->Between.push_back({ segment.From, ends[end], segment.To });
     }
   }
   std::sort(this->Points.begin(), this->Points.end());

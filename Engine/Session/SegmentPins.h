@@ -18,8 +18,8 @@ class SegmentPins
 {
 public:
   /// Lists the edges. Called once.
-  /// @param edges what all segments have become.
-  void List(const PointMeshView& mesh, const std::vector<SegmentEdge>& edges,
+  /// @param edges what all segments have become. @param ends two points for each of them.
+  void List(const std::vector<SegmentEdge>& edges, const std::vector<std::int64_t>& ends,
     const std::vector<Segment>& segments);
   bool AreListed() const { return this->IsListed; }
 

@@ -195,6 +195,10 @@ public:
     this->Engine->NumberKept(regions, firstAdded, segments, kept);
   }
   void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
+  std::vector<std::int64_t> FindEnds(const std::vector<HalfEdgeId>& sides) override
+  {
+    return this->Engine->FindEnds(sides);
+  }
   void DivideAndConquer(const BuildProgress& progress) override
   {
     this->Engine->DivideAndConquer(progress);
