@@ -245,31 +245,32 @@ struct Cut
 class Splitter
 {
 public:
-  Splitter(const PlaneArray& points, std::vector<Segment> segments)
-    : Points(points)
+  Splitter(const PlaneArray& points, std::vector<Segment> segments, const CrossingsCaller& caller)
+    : Points(points),
+      Caller(caller)
   {
     this->Result.Segments = std::move(segments);
   }
 
-  SplitSegments Run(const std::function<void()>& check)
+  SplitSegments Run()
   {
     constexpr int Rounds = 10;
     std::size_t most = 0; // pairs of a round
     for (int round = 0; round < Rounds; ++round)
     {
-      const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs(check);
+      const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs();
       most = round == 0 ? 4 * pairs.size() + 1000 : most;
       if (pairs.empty() || pairs.size() > most)
       {
         break;
       }
-      this->Split(pairs, check);
+      this->Split(pairs);
     }
     return std::move(this->Result);
   }
 
   /// Splits segments at points within rounding of them, unless segments would cross that did not.
-  std::vector<Segment> RunNear(const std::function<void()>& check)
+  std::vector<Segment> RunNear()
   {
     std::vector<std::size_t> segments;
     for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)
@@ -282,12 +283,14 @@ public:
     std::vector<Cut> cuts;
     std::set<std::size_t> bent; // segments with points beside them
     std::map<std::pair<double, double>, std::int64_t> pointAt; // the one that is used
-    this->ForPointsNear(segments, check,
+    this->ForPointsNear(
+      segments,
+      [this](std::size_t segment, std::int64_t point)
+      { return this->IsWithinRounding(segment, point); },
       [&](std::size_t segment, std::int64_t point)
       {
         const PlanePoint place = this->At(point);
-        const std::optional<Fraction> share =
-          this->IsWithinRounding(segment, point) ? this->FindShare(segment, point) : std::nullopt;
+        const std::optional<Fraction> share = this->FindShare(segment, point);
         if (share &&
           pointAt.emplace(std::pair(place.U + 0.0, place.V + 0.0), point).first->second == point)
         {
@@ -302,7 +305,7 @@ public:
     {
       return std::move(this->Result.Segments);
     }
-    const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs(check);
+    const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs();
     for (const std::size_t segment : FindRefused(pairs)) // as a whole
     {
       bent.erase(segment);
@@ -312,7 +315,7 @@ public:
       cuts.end());
     std::vector<Segment> before = this->Result.Segments;
     this->SplitAt(cuts);
-    const bool isWorse = this->FindPairs(check).size() > pairs.size();
+    const bool isWorse = this->FindPairs().size() > pairs.size();
     return isWorse ? std::move(before) : std::move(this->Result.Segments);
   }
 
@@ -367,8 +370,7 @@ private:
   }
 
   /// The pairs of segments that cross, in ascending order: a sweep along the axis that takes less.
-  std::vector<std::pair<std::size_t, std::size_t>> FindPairs(
-    const std::function<void()>& check) const
+  std::vector<std::pair<std::size_t, std::size_t>> FindPairs() const
   {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)
@@ -389,7 +391,7 @@ private:
     {
       if (i % 1024 == 0)
       {
-        check();
+        this->Caller.Check();
       }
       const Box& box = boxes[i];
       for (std::size_t j = i + 1; j < boxes.size() && boxes[j].Low[axis] <= box.High[axis]; ++j)
@@ -508,7 +510,7 @@ private:
   /// Cuts segments at the points that are exactly on them. The parts may bend where crossings are
   /// rounded, and would pass beside such points.
   /// @param cuts those at crossings. Other segments stay straight.
-  void AddPointsOnSegments(std::vector<Cut>& cuts, const std::function<void()>& check) const
+  void AddPointsOnSegments(std::vector<Cut>& cuts) const
   {
     std::vector<std::size_t> segments;
     for (const Cut& cut : cuts)
@@ -517,39 +519,62 @@ private:
     }
     std::sort(segments.begin(), segments.end());
     segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
-    this->ForPointsNear(segments, check,
+    this->ForPointsNear(
+      segments,
+      [this](std::size_t segment, std::int64_t point) {
+        return FindOrientation(this->GetStart(segment), this->GetEnd(segment), this->At(point)) ==
+          0;
+      },
       [&](std::size_t segment, std::int64_t point)
       {
-        const std::optional<Fraction> share = this->FindShare(segment, point);
-        if (share &&
-          FindOrientation(this->GetStart(segment), this->GetEnd(segment), this->At(point)) == 0)
+        if (const std::optional<Fraction> share = this->FindShare(segment, point))
         {
           cuts.push_back({ segment, *share, point });
         }
       });
   }
 
-  /// Calls visit(segment, point) for all points near some segments, and for some others.
-  template <typename Visit>
-  void ForPointsNear(const std::vector<std::size_t>& segments, const std::function<void()>& check,
-    const Visit& visit) const
+  /// Calls visit(segment, point) in the order of the points for all those where
+  /// isNear(segment, point), which is called on threads, and only for points not far away.
+  template <typename IsNear, typename Visit>
+  void ForPointsNear(
+    const std::vector<std::size_t>& segments, const IsNear& isNear, const Visit& visit) const
   {
+    constexpr std::int64_t Piece = 1 << 14, Batch = 64; // of points, and of pieces
     std::vector<SegmentCells::Ends> ends;
     for (const std::size_t segment : segments)
     {
       ends.push_back({ this->GetStart(segment), this->GetEnd(segment) });
     }
     const SegmentCells cells(ends);
-    for (std::int64_t point = 0; point < this->CountPoints(); ++point)
+    const std::int64_t pieces = (this->CountPoints() + Piece - 1) / Piece;
+    for (std::int64_t first = 0; first < pieces; first += Batch)
     {
-      if (point % (1 << 16) == 0)
+      this->Caller.Check();
+      std::array<std::vector<std::pair<std::size_t, std::int64_t>>, Batch> found;
+      this->Caller.Run(std::min(Batch, pieces - first),
+        [&](std::int64_t task)
+        {
+          const std::int64_t begin = (first + task) * Piece;
+          const std::int64_t end = std::min(begin + Piece, this->CountPoints());
+          for (std::int64_t point = begin; point < end; ++point)
+          {
+            cells.ForSegmentsNear(this->At(point),
+              [&](std::size_t i)
+              {
+                if (isNear(segments[i], point))
+                {
+                  found[task].emplace_back(segments[i], point);
+                }
+              });
+          }
+        });
+      for (const auto& piece : found)
       {
-        check();
-      }
-      const PlanePoint place = this->At(point);
-      if (IsFinite(place))
-      {
-        cells.ForSegmentsNear(place, [&](std::size_t i) { visit(segments[i], point); });
+        for (const auto& [segment, point] : piece)
+        {
+          visit(segment, point);
+        }
       }
     }
   }
@@ -638,13 +663,12 @@ private:
     this->Result.Segments = std::move(split);
   }
 
-  void Split(const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
-    const std::function<void()>& check)
+  void Split(const std::vector<std::pair<std::size_t, std::size_t>>& pairs)
   {
     std::vector<Crossing> crossings;
     for (const auto& [earlier, later] : pairs)
     {
-      check();
+      this->Caller.Check();
       crossings.push_back(this->FindCrossing(earlier, later));
     }
     const std::vector<std::int64_t> points = this->TakePoints(crossings);
@@ -654,25 +678,26 @@ private:
       cuts.push_back({ crossings[i].Earlier, crossings[i].OnEarlier, points[i] });
       cuts.push_back({ crossings[i].Later, crossings[i].OnLater, points[i] });
     }
-    this->AddPointsOnSegments(cuts, check);
+    this->AddPointsOnSegments(cuts);
     this->SplitAt(cuts);
   }
 
   const PlaneArray& Points;
+  const CrossingsCaller& Caller;
   SplitSegments Result;
 };
 }
 
 SplitSegments SplitCrossings(
-  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check)
+  const PlaneArray& points, std::vector<Segment> segments, const CrossingsCaller& caller)
 {
-  return Splitter(points, std::move(segments)).Run(check);
+  return Splitter(points, std::move(segments), caller).Run();
 }
 
 std::vector<Segment> SplitAtNearPoints(
-  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check)
+  const PlaneArray& points, std::vector<Segment> segments, const CrossingsCaller& caller)
 {
-  return Splitter(points, std::move(segments)).RunNear(check);
+  return Splitter(points, std::move(segments), caller).RunNear();
 }
 
 }

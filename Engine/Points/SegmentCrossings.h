@@ -29,19 +29,26 @@ struct SplitSegments
   double LargestShift = 0.0; ///< How far rounding has moved a point at most.
 };
 
+/// What these functions need of their caller.
+struct CrossingsCaller
+{
+  /// Calls work(task) for task = 0 .. count - 1, on threads.
+  std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)> Run;
+  /// Is called now and then, on the calling thread. It may throw, which ends the work.
+  std::function<void()> Check;
+};
+
 /// Splits segments where they cross each other, and there also at points that are on them. New
 /// points are rounded, so the parts may cross again; up to ten rounds split them. It ends early
 /// where crossings multiply, as if segments overlap nearly along a line. Segments that meet at a
 /// point, or overlap, do not cross.
-/// @param check is called now and then, and may throw.
 SplitSegments SplitCrossings(
-  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);
+  const PlaneArray& points, std::vector<Segment> segments, const CrossingsCaller& caller);
 
 /// Splits segments at points that are beside them within rounding. Refinement needs that: it splits
 /// segments at rounded places, and the parts could pass such points on the other side.
-/// @param check is called now and then, and may throw.
 std::vector<Segment> SplitAtNearPoints(
-  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);
+  const PlaneArray& points, std::vector<Segment> segments, const CrossingsCaller& caller);
 
 }
 

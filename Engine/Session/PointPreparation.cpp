@@ -10,6 +10,7 @@
 #include "Predicates.h"
 #include "RingDirections.h"
 #include "Strips.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <array>
@@ -128,10 +129,12 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
     this->Segments.push_back(
       { this->GetNear(ends[0]), this->GetNear(ends[1]), GetRing(input, i), i });
   }
+  const CrossingsCaller caller{ [this](std::int64_t count, const auto& work)
+    { ThreadBackend(this->Options.NumberOfThreads).ForTasks(count, work); },
+    [&] { Tell(observer); } };
   if (this->Options.SplitCrossings && !this->Segments.empty())
   {
-    SplitSegments split =
-      SplitCrossings(this->CopyToHost(), std::move(this->Segments), [&] { Tell(observer); });
+    SplitSegments split = SplitCrossings(this->CopyToHost(), std::move(this->Segments), caller);
     this->Segments = std::move(split.Segments);
     this->Added = std::move(split.Added);
     CheckPointCount(input.Points.Count + SizeOf(this->Added));
@@ -141,8 +144,7 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   }
   if (this->WantsRefinement() && !this->Segments.empty())
   {
-    this->Segments =
-      SplitAtNearPoints(this->CopyToHost(), std::move(this->Segments), [&] { Tell(observer); });
+    this->Segments = SplitAtNearPoints(this->CopyToHost(), std::move(this->Segments), caller);
   }
   this->IsPrepared = true;
 }
