@@ -56,6 +56,8 @@ struct WinsRound
 
 struct FindCavity
 {
+  static constexpr bool TakesLong = true;
+
   RefinementStep Step;
 
   void Prefetch(std::int64_t i) const { this->Step.PrefetchCavity(i); }
@@ -65,6 +67,8 @@ struct FindCavity
 /// Decides whether a place for a triangle wins. @returns 1 if it does, else 0.
 struct DecidePlace
 {
+  static constexpr bool TakesLong = true;
+
   RefinementStep Step;
 
   void Prefetch(std::int64_t i) const { this->Step.PrefetchDecision(i); }
@@ -75,6 +79,8 @@ struct DecidePlace
 template <typename Real>
 struct SplitPlace
 {
+  static constexpr bool TakesLong = true;
+
   RefinementStore<Real> Store;
   const RefinementItem* Items;
 

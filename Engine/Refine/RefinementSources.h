@@ -274,6 +274,8 @@ private:
 /// Judges the triangles of a source, and counts the bad ones.
 struct JudgeSource
 {
+  static constexpr bool TakesLong = true;
+
   RefinementSources Sources;
 
   void Prefetch(std::int64_t i) const { this->Sources.PrefetchToCount(i); }

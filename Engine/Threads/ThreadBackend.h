@@ -20,6 +20,7 @@
 #include <numeric>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,16 @@ constexpr int MostThreads = 16;
 struct ThreadNumbering
 {
   std::vector<std::int64_t> FirstOfPiece;
+  std::int64_t Grain = 1; ///< How many items a piece has.
   std::int64_t Total = 0;
 };
+
+/// Whether an item of some work takes long: about half a microsecond. Such work has a member
+/// TakesLong, so that a few thousand items already wake another thread.
+template <typename Work, typename = void>
+constexpr bool TakesLong = false;
+template <typename Work>
+constexpr bool TakesLong<Work, std::void_t<decltype(Work::TakesLong)>> = Work::TakesLong;
 
 /// Runs work for every item on CPU threads. Only this class uses the thread library: oneTBB, or
 /// std::thread under ThreadSanitizer, which cannot see into the packaged oneTBB.
@@ -84,6 +93,15 @@ public:
     return size <= Most ? Most : std::clamp(size / WantedPieces, Fewest, Most);
   }
 
+  /// How many items of some work a piece has.
+  template <typename Work>
+  static constexpr std::int64_t GetGrainOf(std::int64_t size)
+  {
+    constexpr std::int64_t Fewest = 1024, FewestPieces = 4;
+    const std::int64_t grain = GetGrain(size);
+    return TakesLong<Work> ? std::min(grain, std::max(size / FewestPieces, Fewest)) : grain;
+  }
+
   /// Calls work(begin, end) on pieces of [0, size).
   /// @param grain how many items a piece has; 0: as GetGrain says.
   template <typename Work>
@@ -114,9 +132,11 @@ public:
   template <typename Work>
   void ForEach(std::int64_t size, const Work& work) const
   {
-    this->ForRange(size,
+    this->ForRange(
+      size,
       [&work](std::int64_t begin, std::int64_t end)
-      { Loop(begin, end, work, [&work](std::int64_t i) { work(i); }); });
+      { Loop(begin, end, work, [&work](std::int64_t i) { work(i); }); },
+      GetGrainOf<Work>(size));
   }
 
   /// Calls work(group) on each thread of a group.
@@ -150,15 +170,18 @@ public:
   Numbering Count(std::int64_t size, const CountOf& count) const
   {
     Numbering numbering;
-    const std::int64_t grain = GetGrain(size);
+    const std::int64_t grain = GetGrainOf<CountOf>(size);
+    numbering.Grain = grain;
     numbering.FirstOfPiece.assign(size / grain + 1, 0);
-    this->ForRange(size,
+    this->ForRange(
+      size,
       [&](std::int64_t begin, std::int64_t end)
       {
         std::int64_t items = 0;
         Loop(begin, end, count, [&count, &items](std::int64_t i) { items += count(i); });
         numbering.FirstOfPiece[begin / grain] = items;
-      });
+      },
+      grain);
     auto& firsts = numbering.FirstOfPiece;
     numbering.Total = std::accumulate(firsts.begin(), firsts.end(), std::int64_t(0));
     std::exclusive_scan(firsts.begin(), firsts.end(), firsts.begin(), std::int64_t(0));
@@ -171,10 +194,11 @@ public:
   void ForEachNumbered(
     const Numbering& numbering, std::int64_t size, const CountOf& count, const Visit& visit) const
   {
-    this->ForRange(size,
+    this->ForRange(
+      size,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::int64_t next = numbering.FirstOfPiece[begin / GetGrain(size)];
+        std::int64_t next = numbering.FirstOfPiece[begin / numbering.Grain];
         Loop(begin, end, visit,
           [&](std::int64_t i)
           {
@@ -182,7 +206,8 @@ public:
             next += count(i);
             visit(i, first);
           });
-      });
+      },
+      numbering.Grain);
   }
 
   /// Sorts `size` numbers, none of which is NaN.
