@@ -80,7 +80,7 @@ public:
   }
 
   /// The grid where walks begin. It is built at the first time, and stays usable while edges flip
-  /// and triangles are split.
+  /// and triangles are split. What walks find does not depend on its state.
   PlaceGridView RequireGrid(const PlaneMesh& mesh, std::int64_t triangles, const Backend& backend)
   {
     if (this->Grid.Cells.Size() == 0)
@@ -88,6 +88,22 @@ public:
       this->Grid = BuildPlaceGrid(mesh, triangles, backend);
     }
     return this->Grid.View();
+  }
+
+  /// Keeps the grid of a mesh from which some points were removed, unless many are gone by now.
+  void Remove(
+    std::int64_t points, const PlaneMesh& mesh, std::int64_t triangles, const Backend& backend)
+  {
+    constexpr std::int64_t Share = 16;
+    this->Removed += points;
+    if (this->Removed > mesh.Places.Count / Share)
+    {
+      *this = PlaceAsker();
+    }
+    else if (this->Grid.Cells.Size() > 0)
+    {
+      ForgetMovedTriangles(this->Grid, mesh, triangles, backend);
+    }
   }
 
   /// Sorts the places of a block by their cells, if most are far from the ones before. Then
@@ -233,6 +249,7 @@ private:
   }
 
   PlaceGrid Grid;
+  std::int64_t Removed = 0; ///< How many points were removed since the grid was built.
 };
 
 }

@@ -116,6 +116,21 @@ struct PlaceGridFrame
       this->FindColumn(1, a.V) - this->FindColumn(1, b.V));
   }
 
+  /// Whether a place is in a cell of any level or in one beside it.
+  DELAUNAYFLIP_HOST_DEVICE bool IsNear(const PlanePoint& place, std::int64_t cell) const
+  {
+    int level = this->Finest;
+    while (cell < GetFirst(level))
+    {
+      --level;
+    }
+    const std::int64_t number = cell - GetFirst(level);
+    const auto row = static_cast<std::uint32_t>(number >> level);
+    const auto column = static_cast<std::uint32_t>(number - (std::int64_t(row) << level));
+    return AreNear((this->FindColumn(0, place.U) >> (this->Finest - level)) - column,
+      (this->FindColumn(1, place.V) >> (this->Finest - level)) - row);
+  }
+
   /// Whether cells so many columns and rows apart are the same or neighbours.
   DELAUNAYFLIP_HOST_DEVICE static bool AreNear(std::uint32_t columns, std::uint32_t rows)
   {
@@ -245,6 +260,36 @@ PlaceGrid BuildPlaceGrid(const PlaneMesh& mesh, std::int64_t triangles, const Ba
       { coarse[cell] = FindLowestOfFour(fine, level, cell); });
   }
   return grid;
+}
+
+/// Brings the grid of a triangulation up to date from which points were removed: a cell forgets its
+/// triangle if another one that is not near has its number now, or none. Then a walk begins at the
+/// triangle of a larger cell.
+template <typename Backend>
+void ForgetMovedTriangles(
+  PlaceGrid& grid, const PlaneMesh& mesh, std::int64_t triangles, const Backend& backend)
+{
+  const PlaceGridFrame frame = grid.Frame;
+  TriangleId* cells = grid.Cells.Data();
+  backend.ForEach(static_cast<std::int64_t>(grid.Cells.Size()),
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t cell)
+    {
+      const TriangleId triangle = cells[cell];
+      if (triangle == NoTriangle)
+      {
+        return;
+      }
+      bool isNear = triangle < triangles;
+      if (isNear)
+      {
+        const PlanePoint place = mesh.GetPoint(mesh.Edges.Triangles[triangle].Vertices[0]);
+        isNear = frame.IsNear(place, cell);
+      }
+      if (!isNear)
+      {
+        cells[cell] = NoTriangle;
+      }
+    });
 }
 
 }

@@ -25,6 +25,10 @@ class LivingMesh : public BackendMesh<BackendT>
 public:
   MotionResult InsertPoints(const std::vector<double>& places, bool keepsFixed) override
   {
+    if (this->Mesh.NumberOfTriangles == 0)
+    {
+      return MotionResult();
+    }
     this->RequireStates();
     return this->Places.Floats ? this->InsertHere(places, keepsFixed, this->Points.Floats)
                                : this->InsertHere(places, keepsFixed, this->Points.Doubles);
@@ -148,14 +152,12 @@ public:
         { sum += items[i].State == state ? 1 : 0; });
     };
     const std::int64_t repeated = countState(GrowthState::Repeated);
-    const std::int64_t outside = countState(GrowthState::Outside);
     const std::int64_t before = this->Report.Points;
     this->Report.Points += count;
     this->Report.FromPoints.Repeated += repeated;
-    this->Report.FromPoints.NotFinite += outside;
     this->CountGrown();
     const bool areAllUsed = this->UsedPoint.Size() == 0;
-    if (areAllUsed && repeated + outside == 0)
+    if (areAllUsed && repeated == 0)
     {
       return;
     }
@@ -254,7 +256,7 @@ private:
       plane = { this->Mesh.View(), this->Places, true };
       const std::int64_t added =
         growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
-      if (growth.CountRefused() > 0)
+      if (growth.HasOthers())
       {
         return result;
       }
@@ -344,7 +346,6 @@ private:
       this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
       return this->Settle(coordinates.Data(), hasOtherEdges);
     };
-    this->Asker = PlaceAsker<BackendT>();
     const MotionResult result = this->Motion.Remove(mesh, this->Order.VertexOfRank.Data(),
       { removed, this->Report.Points }, segments, this->Backend, settle);
     if (result.IsThere)
@@ -352,6 +353,8 @@ private:
       this->ForgetUsed(removed);
       this->Report.FromPoints.NotFinite += SizeOf(ids);
       this->CountGrown();
+      const PlaneMesh plane{ this->Mesh.View(), this->Places, true };
+      this->Asker.Remove(SizeOf(ids), plane, this->Mesh.NumberOfTriangles, this->Backend);
     }
     return result;
   }

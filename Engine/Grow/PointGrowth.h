@@ -76,6 +76,8 @@ struct GrowthRound
       item.Vertex = this->Mesh.GetVertex(MakeCorner(item.Place.Triangle, vertex));
       return;
     }
+    // Either triangle at an edge would do. This one does not depend on where the walk began.
+    item.Place = ChooseTriangle(this->Mesh, item.Place, nullptr);
     if (this->KeepsFixed && this->IsOnFixed(item.Place))
     {
       item.State = GrowthState::Refused;
@@ -101,6 +103,12 @@ struct GrowthRound
     {
       item.State = GrowthState::Wins;
     }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsOther(std::int64_t i) const
+  {
+    const GrowthState state = this->Items[i].State;
+    return state == GrowthState::Outside || state == GrowthState::Refused;
   }
 
 private:
@@ -131,12 +139,14 @@ struct GrowthSums
 {
   std::int64_t Winners = 0;
   std::int64_t OnBoundary = 0; ///< Those of them that split an edge of the boundary.
+  std::int64_t Others = 0; ///< Places that cannot be inserted: they are Outside or Refused.
   std::int64_t Failed = 0; ///< Not 0 if a device could not decide.
 
   DELAUNAYFLIP_HOST_DEVICE GrowthSums& operator+=(const GrowthSums& part)
   {
     this->Winners += part.Winners;
     this->OnBoundary += part.OnBoundary;
+    this->Others += part.Others;
     this->Failed += part.Failed;
     return *this;
   }
@@ -207,17 +217,22 @@ public:
 
   const GrowthItem* GetItems() const { return this->Items.Data(); }
 
+  /// Whether some places are outside of all triangles, or on fixed edges that must not be split.
+  /// Then none is inserted. This is known after the first call of InsertSome.
+  bool HasOthers() const { return this->AreOthers; }
+
   /// Inserts places that split no common triangle. Edges that have to be judged become candidates.
   /// @param vertices how many places the mesh has. The new ones' numbers follow.
   /// @param grow makes room for so many vertices, and returns a StoreVertex.
-  /// @returns how many. 0: none is waiting.
+  /// @returns how many. 0: none is waiting, or HasOthers.
   /// @throws BeyondDevice.
   template <typename Grow>
   std::int64_t InsertSome(EdgeMesh& mesh, PlaneMesh plane, std::int64_t vertices,
     const PlaceGridView& grid, const Grow& grow)
   {
     const GrowthSums added = this->FindWinners(mesh, plane, grid);
-    if (added.Winners == 0)
+    this->AreOthers = added.Others > 0;
+    if (added.Winners == 0 || this->AreOthers)
     {
       return 0;
     }
@@ -238,16 +253,6 @@ public:
   }
 
   // The functions below are public because device lambdas require it.
-
-  /// How many places are on fixed edges that must not be split. This is known after the first call
-  /// of InsertSome.
-  std::int64_t CountRefused() const
-  {
-    const GrowthItem* items = this->Items.Data();
-    return this->Device.template Sum<std::int64_t>(this->KeepsFixed ? this->Count : 0,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-      { sum += items[i].State == GrowthState::Refused ? 1 : 0; });
-  }
 
   void Start()
   {
@@ -278,6 +283,7 @@ public:
         const bool wins = round.Items[i].State == GrowthState::Wins;
         sum.Winners += wins ? 1 : 0;
         sum.OnBoundary += wins && splitter.IsOnBoundary(round.Items[i].Place) ? 1 : 0;
+        sum.Others += round.IsOther(i) ? 1 : 0;
         sum.Failed += i == 0 ? *round.Mesh.Failed : 0;
       });
     if (sums.Failed != 0)
@@ -335,6 +341,7 @@ private:
   const double* Places;
   std::int64_t Count;
   bool KeepsFixed;
+  bool AreOthers = false; ///< See HasOthers.
   Array<GrowthItem> Items;
   /// By item, how many winners precede it; then how many of those on the boundary.
   Array<std::int64_t> Before;

@@ -82,14 +82,20 @@ bool PointRun::AreFew(std::int64_t points) const
   return points <= this->Points.GetCaller().Points.Count / Share + Always;
 }
 
-/// Whether no limit may end the flips, the points are few, and all of them are in triangles that
-/// are kept.
+/// Whether no limit may end the flips, the points are few, and none of them is in a triangle that
+/// was removed. Whether all are in the hull is found out while they are inserted.
 bool PointRun::CanInsertInPlace(const PlaneArray& points)
 {
   const bool hasNoLimit = this->Points.GetOptions().MaximumIterations < 0;
-  if (!hasNoLimit || !this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
+  const bool mayStay = hasNoLimit && this->Report.Triangles > 0 && this->AreFew(points.Count) &&
+    this->IsDelaunay() && this->MaySegmentsStay();
+  if (!mayStay)
   {
     return false;
+  }
+  if (!this->Result.HasRemoved())
+  {
+    return true;
   }
   const std::vector<double> places = RoundLike(points, this->Points.GetCaller().Points);
   std::vector<std::int32_t> triangles(points.Count);
@@ -135,13 +141,12 @@ bool PointRun::InsertInPlace(std::int64_t count)
 MotionResult PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
 {
   const PlaneArray& all = this->Points.GetInput().Points;
-  std::vector<double> places;
-  places.reserve(2 * (this->BatchEnds[batch + 1] - this->BatchEnds[batch]));
-  for (std::int64_t i = this->BatchEnds[batch]; i < this->BatchEnds[batch + 1]; ++i)
-  {
-    places.push_back(all.Get(i, 0));
-    places.push_back(all.Get(i, 1));
-  }
+  const std::int64_t begin = this->BatchEnds[batch];
+  const std::int64_t count = this->BatchEnds[batch + 1] - begin;
+  const auto skip = [&](const auto* values)
+  { return PlaneArray(values + all.Stride * begin, count, all.Stride); };
+  std::vector<double> places(2 * count);
+  CopyCoordinates(all.Floats ? skip(all.Floats) : skip(all.Doubles), places.data());
   return mesh.InsertPoints(places, this->Points.GetCaller().NumberOfSegments > 0);
 }
 
