@@ -458,10 +458,14 @@ PointsWithoutHeights SegmentList::FindPointsWithoutHeights(std::int64_t firstHol
 {
   PointsWithoutHeights found;
   std::vector<double> storage;
-  const PointArray points = ViewPoints(this->Points, storage);
   const vtkIdType given = this->Given->GetNumberOfPoints();
+  if (this->Points->GetNumberOfPoints() == given)
+  {
+    return found;
+  }
+  const PointArray points = ViewPoints(this->Points, storage);
   const HeightRange heights(points, given);
-  if (points.Count == given || heights.IsEmpty())
+  if (heights.IsEmpty())
   {
     return found;
   }

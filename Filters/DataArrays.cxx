@@ -11,6 +11,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -82,6 +83,31 @@ PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
     data->GetTuple(point, &storage[3 * point]);
   }
   return { static_cast<const double*>(storage.data()), count };
+}
+
+vtkSmartPointer<vtkPoints> CopyPoints(vtkPoints* points)
+{
+  vtkDataArray* const from = points->GetData();
+  auto copy = vtkSmartPointer<vtkPoints>::New();
+  copy->SetDataType(from->GetDataType()); // to which DeepCopy rounds
+  const bool isPlain = from->GetNumberOfComponents() == 3 && from->HasStandardMemoryLayout() &&
+    from->GetDataTypeSize() > 0;
+  if (!isPlain)
+  {
+    copy->DeepCopy(points);
+    return copy;
+  }
+  const vtkIdType count = points->GetNumberOfPoints();
+  copy->SetNumberOfPoints(count);
+  copy->GetData()->SetName(from->GetName());
+  const vtkIdType size = 3 * vtkIdType(from->GetDataTypeSize());
+  const auto* const first = static_cast<const unsigned char*>(from->GetVoidPointer(0));
+  auto* const to = static_cast<unsigned char*>(copy->GetVoidPointer(0));
+  constexpr vtkIdType Grain = 1 << 14;
+  vtkSMPTools::For(0, count, Grain,
+    [=](vtkIdType begin, vtkIdType end)
+    { std::memcpy(to + size * begin, first + size * begin, size * (end - begin)); });
+  return copy;
 }
 
 vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)

@@ -45,6 +45,9 @@ inline vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
 /// @throws InvalidMesh if points do not have three coordinates.
 DELAUNAYFLIP_EXPORT PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
 
+/// A copy. Threads make it if the engine can read the layout of the points.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPoints> CopyPoints(vtkPoints* points);
+
 /// The places of longitudes and latitudes on the unit sphere.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees);
 

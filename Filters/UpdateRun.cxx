@@ -169,10 +169,7 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
   mesh->ShallowCopy(input);
   if (vtkPoints* points = input->GetPoints())
   {
-    vtkNew<vtkPoints> copy;
-    copy->SetDataType(points->GetDataType()); // to which DeepCopy rounds
-    copy->DeepCopy(points);
-    mesh->SetPoints(copy);
+    mesh->SetPoints(CopyPoints(points));
   }
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include "DelaunayFlip.h"
 #include "MapperBuffers.h"
 #include "MapperColors.h"
+#include "MapperMesh.h"
 #include "MapperShaders.h"
 #include "MeshAudit.h"
 #include "OpenGLFunctions.h"
@@ -129,7 +130,7 @@ struct vtkDelaunayFlipMapper::Parts
       split->Update();
       this->Faces = split->GetOutput();
     }
-    this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    CopyIds(this->Faces->GetPolys(), this->Ids);
     this->IsFollowing = false;
     this->AreUsed.assign(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()), 0);
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
@@ -141,30 +142,14 @@ struct vtkDelaunayFlipMapper::Parts
 
   void MeasureBox()
   {
-    vtkPoints* points = this->Faces->GetPoints();
     this->Box.Reset();
     if (this->Ids->GetNumberOfValues() == 0)
     {
       return;
     }
-    double bounds[6];
-    vtkBoundingBox::ComputeBounds(points, this->AreUsed.data(), bounds);
-    const auto isFinite = [](double x) { return std::isfinite(x); };
-    if (!std::all_of(std::begin(bounds), std::end(bounds), isFinite))
-    {
-      std::vector<unsigned char> areUsed = this->AreUsed;
-      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-      {
-        double x[3];
-        points->GetPoint(i, x);
-        if (!std::all_of(std::begin(x), std::end(x), isFinite))
-        {
-          areUsed[i] = 0;
-        }
-      }
-      vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
-    }
-    this->Box.SetBounds(bounds);
+    std::vector<double> storage;
+    BoxOfPoints box{ ViewPoints(this->Faces, storage), this->AreUsed.data(), this->Box, {} };
+    vtkSMPTools::For(0, this->Faces->GetNumberOfPoints(), box);
   }
 
   /// Keeps those that there are, if they have the right sizes. Followed points change the number of
@@ -232,17 +217,18 @@ struct vtkDelaunayFlipMapper::Parts
     const bool isUsable = half > 0.0 && std::isfinite(half);
     this->Unit = isUsable ? half : 1.0;
     this->Box.GetCenter(this->Center);
+    std::vector<double> storage;
+    const PointArray given = ViewPoints(this->Faces, storage);
     std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
     vtkSMPTools::For(0, this->PointCount,
       [&](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType i = begin; i < end; ++i)
         {
-          double x[3];
-          points->GetPoint(i, x);
           for (int axis = 0; axis < 3; ++axis)
           {
-            places[3 * i + axis] = static_cast<float>((x[axis] - this->Center[axis]) / this->Unit);
+            places[3 * i + axis] =
+              static_cast<float>((given.Get(i, axis) - this->Center[axis]) / this->Unit);
           }
         }
       });
@@ -390,11 +376,13 @@ bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
   const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
   const auto areThere = [count = mesh->GetNumberOfPoints()](vtkCellArray* cells)
   {
-    const vtkNew<vtkIdTypeArray> ids; // a copy: arrays keep a range that may be of old values
-    ids->DeepCopy(cells->GetConnectivityArray());
-    const double* range = ids->GetRange();
-    return ids->GetNumberOfValues() == 0 ||
-      (range[0] >= 0.0 && range[1] < static_cast<double>(count));
+    bool areThere = true; // not by the range that an array keeps: it may be of old values
+    VisitIds(cells,
+      [&](const auto* first, const auto* last) {
+        areThere =
+          std::all_of(first, last, [count](vtkIdType id) { return id >= 0 && id < count; });
+      });
+    return areThere;
   };
   return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
     std::all_of(arrays, arrays + 2, areThere);
@@ -471,10 +459,7 @@ void vtkDelaunayFlipMapper::SetMovedPoints(vtkPoints* points)
   {
     return;
   }
-  const vtkNew<vtkPoints> copy; // the caller may move on before this is drawn
-  copy->SetDataType(points->GetDataType());
-  copy->DeepCopy(points);
-  this->Own->Faces->SetPoints(copy);
+  this->Own->Faces->SetPoints(CopyPoints(points)); // the caller may move on before this is drawn
   this->Own->IsFollowing = true;
   this->Own->MeasureBox();
   this->Own->IsNew = true; // a motion changes triangles otherwise than by flips, too
