@@ -97,14 +97,15 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
   {
     return false;
   }
-  std::vector<std::int64_t> removed = this->Points.GetRemoved();
-  removed.insert(removed.end(), ids, ids + count);
-  std::sort(removed.begin(), removed.end());
-  removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
+  std::vector<std::int64_t> given(ids, ids + count);
+  std::sort(given.begin(), given.end());
+  given.erase(std::unique(given.begin(), given.end()), given.end());
   const std::vector<std::int64_t>& before = this->Points.GetRemoved();
   std::vector<VertexId> added;
   std::set_difference(
-    removed.begin(), removed.end(), before.begin(), before.end(), std::back_inserter(added));
+    given.begin(), given.end(), before.begin(), before.end(), std::back_inserter(added));
+  std::vector<std::int64_t> removed(before.size() + added.size());
+  std::merge(before.begin(), before.end(), added.begin(), added.end(), removed.begin());
   const std::array<double, 2> nowhere = { NAN, NAN };
   std::vector<std::array<double, 2>> places(added.size(), nowhere);
   // Made now, because a function may take memory, and from the exchange on nothing may throw but
