@@ -283,11 +283,7 @@ def _match_places(pairs, other_points, points, triangles):
     size = int(max(places.max(initial=-1), other_places.max(initial=-1))) + 1
     shift = len(places) + len(other_places)  # so that none is negative
     wanted = _unite([wanted + shift], [numpy.zeros(len(wanted), bool)], 2 * shift)[0] - shift
-    known = places[places >= 0]
-    crowd = numpy.append(numpy.bincount(known, minlength=size), 0)  # [-1]: a place without points
-    first = numpy.full(size + 1, -1)
-    ids = numpy.flatnonzero(places >= 0)[::-1]
-    first[places[ids]] = ids
+    crowd, first = _count_points(places, triangles, size)
     matches = numpy.prod(crowd[numpy.maximum(wanted, -1)], axis=1)
     single = _drop_points(first[wanted[matches == 1]])
     crowded, found = _find_crowded(wanted[matches > 1], places, triangles, size)
@@ -296,6 +292,28 @@ def _match_places(pairs, other_points, points, triangles):
     if (matches == 0).any():
         stranger = _describe_edge(other_points, other_places, wanted[matches == 0][0], pairs)
     return numpy.concatenate([single, crowded]), unmatched, stranger
+
+
+def _count_points(places, triangles, size):
+    """How many points of the mesh are at each place, and the first of them; last, those of a place without
+    points. Where there are several, those that no triangle uses count only if there are no others."""
+    ids = numpy.flatnonzero(places >= 0)
+    crowd, first = _list_points(places, ids, size)
+    if (crowd > 1).any():
+        is_used = numpy.zeros(len(places), dtype=bool)
+        is_used[triangles[(triangles >= 0) & (triangles < len(places))]] = True
+        used_crowd, used_first = _list_points(places, ids[is_used[ids]], size)
+        has_used = used_crowd > 0
+        crowd[has_used], first[has_used] = used_crowd[has_used], used_first[has_used]
+    return crowd, first
+
+
+def _list_points(places, ids, size):
+    """The same of the points with these ids, ascending."""
+    crowd = numpy.append(numpy.bincount(places[ids], minlength=size), 0)
+    first = numpy.full(size + 1, -1)
+    first[places[ids[::-1]]] = ids[::-1]
+    return crowd, first
 
 
 def _describe_edge(points, places, wanted, pairs):

@@ -373,6 +373,25 @@ class Same(Pair, unittest.TestCase):
                         getattr(flip, "Set" + settings)(settings == "InsertLines")
                     self.expect_same(data, prepare)
 
+    def test_constraints_beside_unused_points(self):
+        mesh, line = make_rhombus(), vtkPolyData()
+        for corner in (1, 3):
+            mesh.GetPoints().InsertNextPoint(mesh.GetPoint(corner))
+        mesh.GetPoints().InsertNextPoint(5.0, 5.0, 0.0)
+        points = vtkPoints()
+        for corner in (1, 3):
+            points.InsertNextPoint(mesh.GetPoint(corner))
+        line.SetPoints(points)
+        line.SetLines(make_cells([(0, 1)]))
+
+        def prepare(flip):
+            flip.SetConstraintsData(line)
+            flip.InsertConstraintsOn()
+
+        answers = self.expect_same(mesh, prepare)["answers"]
+        self.assertEqual(answers["GetNumberOfInsertedConstraints"], 1)
+        self.assertEqual(answers["GetNumberOfUnmatchedConstraints"], 0)
+
     def test_regions(self):
         mesh = make_polygon_mesh()
         add_regions(mesh)
