@@ -187,10 +187,13 @@ def _library_name(array):
 def _is_on_device(array):
     if isinstance(array, numpy.ndarray):
         return False
-    if _library_name(array) == "torch":
+    library = _library_name(array)
+    if library == "torch":
         return getattr(array, "is_cuda", False)
-    # Libraries make the interface when it is read, which takes a while.
-    if hasattr(type(array), "__cuda_array_interface__") or hasattr(array, "__cuda_array_interface__"):
+    # CuPy makes the interface when it is read, which takes a while. Others raise AttributeError then if the
+    # array is not on a GPU.
+    asked = type(array) if library == "cupy" else array
+    if hasattr(asked, "__cuda_array_interface__"):
         return True
     return hasattr(array, "__dlpack__") and array.__dlpack_device__()[0] in _DLPACK_MEMORIES
 

@@ -874,9 +874,17 @@ class Errors(unittest.TestCase):
             def __dlpack_device__(self):
                 return self.values.__dlpack_device__()
 
-        points, triangles = Other(POINTS), Other(TRIANGLES)
-        self.assertEqual(_arrays.as_points(points).ctypes.data, points.address)
-        self.assertEqual(_arrays.as_ids("triangles", triangles, 3).ctypes.data, triangles.address)
+        class OnHost(Other):
+            """An array of a library that also has arrays on GPUs."""
+
+            @property
+            def __cuda_array_interface__(self):
+                raise AttributeError("this array is not on a GPU")
+
+        for kind in (Other, OnHost):
+            points, triangles = kind(POINTS), kind(TRIANGLES)
+            self.assertEqual(_arrays.as_points(points).ctypes.data, points.address)
+            self.assertEqual(_arrays.as_ids("triangles", triangles, 3).ctypes.data, triangles.address)
 
     def test_single_values(self):
         """What is no list is refused by the argument's name; an array without dimensions is a number."""
