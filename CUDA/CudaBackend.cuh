@@ -412,6 +412,20 @@ public:
     this->Synchronize();
   }
 
+  /// Lets blocks of a kernel without shared memory of its own take all of a multiprocessor's.
+  /// @returns the number of bytes.
+  std::size_t AllowAllSharedMemory(void (*kernel)(EmptyWork)) const
+  {
+    int device = 0, bytes = 0;
+    CallCuda("plan a launch", cudaGetDevice, &device);
+    CallCuda("plan a launch", cudaDeviceGetAttribute, &bytes,
+      cudaDevAttrMaxSharedMemoryPerBlockOptin, device);
+    CallCuda("plan a launch",
+      [&]
+      { return cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, bytes); });
+    return static_cast<std::size_t>(bytes);
+  }
+
   /// The number of blocks of a group. Blocks wait for each other in a cluster, if the code was
   /// compiled for GPUs that have them, which begin with compute capability 9.0.
   unsigned int CountGroupBlocks() const
@@ -427,7 +441,9 @@ public:
       if (attributes.ptxVersion >= FirstWithClusters)
       {
         cudaLaunchAttribute cluster{};
-        const cudaLaunchConfig_t config = ConfigureGroup(MostGroupBlocks, cluster);
+        cudaLaunchConfig_t config = ConfigureGroup(MostGroupBlocks, cluster);
+        // Each block takes a whole multiprocessor, as those of work with many registers do.
+        config.dynamicSmemBytes = this->AllowAllSharedMemory(kernel);
         if (cudaOccupancyMaxActiveClusters(&clusters, kernel, &config) != cudaSuccess)
         {
           clusters = 0;

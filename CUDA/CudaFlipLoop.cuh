@@ -459,22 +459,19 @@ private:
     const auto chunks = static_cast<int>((this->NumberOfChunks + devices - 1) / devices);
     this->Teams = std::max(1, std::min({ teams, chunks, blocks }));
     this->BlocksOfTeam = blocks / this->Teams;
-    constexpr std::int64_t ForResults = (sizeof(Results) - 1) / sizeof(TeamState) + 1;
-    const std::int64_t states = this->Backend.CountDevices() * this->CountTeamStates();
-    this->TeamStates = this->Backend.template MakeArray<TeamState>(states + ForResults);
-    this->DeviceResults = reinterpret_cast<Results*>(this->TeamStates.Data() + states);
+    this->TeamStates =
+      this->Backend.template MakeArray<TeamState>(devices * this->CountTeamStates());
+    this->DeviceResults = reinterpret_cast<Results*>(this->TeamStates.Data() + this->Teams);
   }
 
-  /// The number of team states per GPU. With several GPUs there are so many that those of each are
-  /// in its memory.
+  /// The number of team states per GPU. The results are in place of the first ones that have no
+  /// team. With several GPUs there are so many that those of each are in its memory.
   std::int64_t CountTeamStates() const
   {
+    constexpr std::int64_t ForResults = (sizeof(Results) - 1) / sizeof(TeamState) + 1;
     constexpr std::int64_t Many = (std::int64_t(4) << 20) / sizeof(TeamState);
-    if (this->Backend.CountDevices() > 1)
-    {
-      return std::max<std::int64_t>(this->Teams, Many);
-    }
-    return this->Teams;
+    const std::int64_t states = this->Teams + ForResults;
+    return this->Backend.CountDevices() > 1 ? std::max(states, Many) : states;
   }
 
   /// The share of a launch that one of several GPUs has.
