@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +34,43 @@ void CheckIds(const std::int64_t* ids, std::int64_t count, std::int64_t points)
     throw InvalidOptions(
       "point " + std::to_string(*wrong) + " does not exist; there are " + Count(points, "point"));
   }
+}
+
+/// The number of the lowest bit that is 1.
+int FindLowestBit(std::uint64_t word)
+{
+  int lowest = 0;
+  for (int half = 32; half > 0; half /= 2)
+  {
+    if ((word & ((std::uint64_t(1) << half) - 1)) == 0)
+    {
+      word >>= half;
+      lowest += half;
+    }
+  }
+  return lowest;
+}
+
+/// Lists each of some ids once, in ascending order. Bits take less time than a sort of 10,000 ids.
+/// @param points how many there are, more than any id.
+std::vector<VertexId> ListOnce(const std::int64_t* ids, std::int64_t count, std::int64_t points)
+{
+  constexpr int BitsOfWord = 64;
+  std::vector<std::uint64_t> words(points / BitsOfWord + 1);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    words[ids[i] / BitsOfWord] |= std::uint64_t(1) << (ids[i] % BitsOfWord);
+  }
+  std::vector<VertexId> once;
+  once.reserve(count);
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    for (std::uint64_t word = words[i]; word != 0; word &= word - 1)
+    {
+      once.push_back(static_cast<VertexId>(BitsOfWord * i + FindLowestBit(word)));
+    }
+  }
+  return once;
 }
 
 /// Sets x and y of a point.
@@ -97,13 +133,11 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
   {
     return false;
   }
-  std::vector<std::int64_t> given(ids, ids + count);
-  std::sort(given.begin(), given.end());
-  given.erase(std::unique(given.begin(), given.end()), given.end());
   const std::vector<std::int64_t>& before = this->Points.GetRemoved();
-  std::vector<VertexId> added;
-  std::set_difference(
-    given.begin(), given.end(), before.begin(), before.end(), std::back_inserter(added));
+  std::vector<VertexId> added = ListOnce(ids, count, this->Points.GetCaller().Points.Count);
+  added.erase(std::remove_if(added.begin(), added.end(),
+                [this](VertexId id) { return this->Points.IsRemoved(id); }),
+    added.end());
   std::vector<std::int64_t> removed(before.size() + added.size());
   std::merge(before.begin(), before.end(), added.begin(), added.end(), removed.begin());
   const std::array<double, 2> nowhere = { NAN, NAN };
