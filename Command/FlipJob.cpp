@@ -218,8 +218,14 @@ public:
   void Tell()
   {
     this->Run.Warnings = this->Messages.GetWarnings();
-    this->Files.Statistics.Write(MakeCsv(this->Run.Flip));
-    this->Files.Report.Write(MakeJson(this->Run));
+    if (!this->Settings.Statistics.empty())
+    {
+      this->Files.Statistics.Write(MakeCsv(this->Run.Flip));
+    }
+    if (!this->Settings.Report.empty())
+    {
+      this->Files.Report.Write(MakeJson(this->Run));
+    }
     if (!this->Settings.Quiet)
     {
       std::cout << MakeSummary(this->Run);

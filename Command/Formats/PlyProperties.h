@@ -6,7 +6,6 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkType.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,14 +61,6 @@ struct PlyProperty
   int CountType = VTK_VOID; ///< For a list, the type of its length.
   bool IsOfCell = false; ///< Whether its values are points of a face or an edge.
 };
-
-template <typename Thing>
-const Thing* Find(const std::vector<Thing>& things, const std::string& name)
-{
-  const auto found = std::find_if(
-    things.begin(), things.end(), [&name](const Thing& thing) { return thing.Name == name; });
-  return found != things.end() ? &*found : nullptr;
-}
 
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 /// @file
 /// The reader of .ply.
@@ -99,6 +100,7 @@ private:
       this->File.Fail("not a PLY file (it does not start with 'ply')");
     }
     std::string format;
+    std::set<std::string> elements, properties; // names; the properties are the last element's
     while (this->Lines.Next() && this->Word(0) != "end_header")
     {
       const std::string keyword = this->Word(0);
@@ -118,20 +120,20 @@ private:
       }
       else if (keyword == "element")
       {
-        isRight = !Find(this->Elements, this->Word(1));
+        isRight = elements.insert(this->Word(1)).second;
+        properties.clear();
         this->Elements.push_back({ this->Word(1), this->Lines.Number<std::uint64_t>(2), {} });
       }
       else if (keyword == "property" && !this->Elements.empty())
       {
-        std::vector<PlyProperty>& properties = this->Elements.back().Properties;
         const std::size_t type = isList ? 3 : 1;
         PlyProperty property{ this->Word(type + 1), this->TypeAt(type) };
         if (isList)
         {
           property.CountType = this->TypeAt(2);
         }
-        isRight = IsInteger(property.CountType) && !Find(properties, property.Name);
-        properties.push_back(property);
+        isRight = IsInteger(property.CountType) && properties.insert(property.Name).second;
+        this->Elements.back().Properties.push_back(property);
       }
       if (!isRight)
       {

@@ -69,6 +69,12 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
   return names;
 }
 
+bool HasColumn(const std::vector<PlyProperty>& columns, const std::string& name)
+{
+  return std::any_of(columns.begin(), columns.end(),
+    [&name](const PlyProperty& column) { return column.Name == name; });
+}
+
 /// The properties of vertices. Leaves out arrays that a .ply cannot hold: strings, too large
 /// integers, and an array if the coordinates or an earlier array use its name.
 std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
@@ -88,7 +94,7 @@ std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
     }
     const Names names = PropertyNames(data, array);
     const bool isTaken = std::any_of(names.begin(), names.end(),
-      [&columns](const std::string& name) { return Find(columns, name); });
+      [&columns](const std::string& name) { return HasColumn(columns, name); });
     for (std::size_t component = 0; component < names.size() && !isTaken; ++component)
     {
       columns.push_back({ names[component], TypeFor(array), array, static_cast<int>(component) });
@@ -124,7 +130,7 @@ std::vector<PlyProperty> PlanFaceColumns(vtkPolyData* mesh)
     const Names names = PropertyNames(data, array);
     const bool isTaken = std::any_of(names.begin(), names.end(),
       [&columns](const std::string& name)
-      { return Find(columns, name) || name == "vertex_indices" || name == "vertex_index"; });
+      { return HasColumn(columns, name) || name == "vertex_indices" || name == "vertex_index"; });
     const bool isOne = names.size() == 1 || names[0] == "red";
     for (std::size_t i = 0; i < names.size() && !isTaken && isOne; ++i)
     {
