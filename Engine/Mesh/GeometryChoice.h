@@ -65,6 +65,18 @@ inline std::string DescribeStrays(const OrientationSample& orientations)
   return strays;
 }
 
+/// The scale of a mesh in this box.
+inline PlaneScale FindScale(const BoundingBox& box)
+{
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
+  }
+  const int exponent = -ExponentOf(largest);
+  return { { std::scalbn(1.0, exponent / 2), std::scalbn(1.0, exponent - exponent / 2) } };
+}
+
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
 template <typename BackendT>
 class GeometryChoice
@@ -74,7 +86,7 @@ public:
     : Input(input),
       Survey(survey),
       Backend(backend),
-      Triangles{ input.Local, survey.GetUsesIfNeeded(), PlaneScale(survey.Box) }
+      Triangles{ input.Local, survey.GetUsesIfNeeded(), FindScale(survey.Box) }
   {
   }
 

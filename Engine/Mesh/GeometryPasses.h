@@ -30,18 +30,6 @@ struct PlaneScale
 {
   double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.
 
-  explicit PlaneScale(const BoundingBox& box)
-  {
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
-    }
-    const int exponent = -ExponentOf(largest);
-    this->Factors[0] = std::scalbn(1.0, exponent / 2);
-    this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
-  }
-
   DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(const Vector3& p) const
   {
     return this->Factors[1] * (this->Factors[0] * p);

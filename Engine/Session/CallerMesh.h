@@ -35,6 +35,9 @@ public:
   /// The arrays in device memory; null if they are in the host's.
   const DeviceMesh* GetOnDevice() const { return this->Device ? &*this->Device : nullptr; }
 
+  /// The arrays in the host's memory, unless they are in a device's.
+  const TriangleMesh& GetOnHost() const { return this->Host; }
+
   /// The arrays in the host's memory. They are copied from a device in the first call; the copies
   /// belong to this object and to those copied from it later.
   /// @throws BackendUnavailable.

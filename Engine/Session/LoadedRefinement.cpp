@@ -53,27 +53,6 @@ Defect LoadedRun::DescribeLimit(std::int64_t points) const
   return defect;
 }
 
-Defect LoadedRun::FindIdleOptions() const
-{
-  if (this->WantsRefinement)
-  {
-    const bool isCut = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
-    return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
-  }
-  Defect defect(DefectKind::OptionsWithoutGoal);
-  const auto add = [&](bool isGiven, const char* name)
-  {
-    if (isGiven)
-    {
-      ++defect.Count;
-      defect.Detail += (defect.Detail.empty() ? "" : ", ") + std::string(name);
-    }
-  };
-  add(this->Options.KeepBoundary, "KeepBoundary");
-  add(this->Options.PointLimit > 0, "PointLimit");
-  return defect;
-}
-
 bool LoadedRun::Refine()
 {
   // The number of rounds is not known before; most meshes need 10 to 30.
@@ -86,8 +65,7 @@ bool LoadedRun::Refine()
   { return this->CountIterations() + this->Rounds - this->RoundsBefore < this->Limit; };
   while (!this->IsRefined && !this->WasStopped && !this->IsAtIterationLimit() && mayRefine())
   {
-    const auto refine = [this](LoadedMesh& mesh) { return this->RefineOnce(mesh); };
-    this->IsRefined = this->OnBackend(refine) == 0;
+    this->OnBackend([this](LoadedMesh& mesh) { this->IsRefined = this->RefineOnce(mesh) == 0; });
     this->RecordChange(this->IsRefined ? 0 : 1); // also the beginning, if no point is added
     if (!this->IsRefined)
     {

@@ -156,12 +156,33 @@ void LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
   }
 }
 
+Defect LoadedRun::FindIdleOptions() const
+{
+  if (this->WantsRefinement)
+  {
+    const bool isCut = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
+    return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
+  }
+  Defect defect(DefectKind::OptionsWithoutGoal);
+  const auto add = [&](bool isGiven, const char* name)
+  {
+    if (isGiven)
+    {
+      ++defect.Count;
+      defect.Detail += (defect.Detail.empty() ? "" : ", ") + std::string(name);
+    }
+  };
+  add(this->Options.KeepBoundary, "KeepBoundary");
+  add(this->Options.PointLimit > 0, "PointLimit");
+  return defect;
+}
+
 void LoadedRun::TestAllEdges()
 {
   FlipReport& report = this->Report;
   this->Building.Reach(report.GeometryUsed, BuildStep::Measured);
   const StopWatch watch;
-  this->RecordFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
+  this->OnBackend([this](LoadedMesh& mesh) { this->RecordFound(mesh.GetLoop().Detect()); });
   this->RecordChange(0);
   this->AreAnglesKnown = this->MeasuresStart;
   report.NonDelaunayBefore = report.NonDelaunayAfter;
@@ -233,6 +254,37 @@ void LoadedRun::RecordChange(std::int64_t count)
 }
 
 /// Replaces a GPU that has failed by threads. To be called while the error is handled.
+void LoadedRun::OnBackend(const MeshWork& work)
+{
+  try
+  {
+    const std::unique_ptr<DeviceScope> current = this->Loaded->MakeCurrent();
+    work(*this->Loaded);
+    return;
+  }
+  catch (const BackendUnavailable& error)
+  {
+    this->FallBack(error);
+  }
+  work(*this->Loaded);
+}
+
+bool LoadedRun::TryOnBackend(const MeshWork& work)
+{
+  try
+  {
+    if (this->Loaded)
+    {
+      this->OnBackend(work);
+    }
+  }
+  catch (const RunAborted&)
+  {
+    this->Abort();
+  }
+  return this->Loaded != nullptr;
+}
+
 void LoadedRun::FallBack(const BackendUnavailable& error)
 {
   if (this->Options.Backend == BackendKind::CUDA)
@@ -335,8 +387,8 @@ void LoadedRun::RunBatch()
   const bool measuresFirst = first == 0 && this->MeasuresStart;
   const AdvancePlan plan{ most, measuresFirst, this->Options.TrackQuality };
   const TemporaryValue<bool> forgets(this->MayForget, first == 0);
-  const std::vector<IterationCounts> batch =
-    this->OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
+  std::vector<IterationCounts> batch;
+  this->OnBackend([&](LoadedMesh& mesh) { batch = mesh.GetLoop().Advance(plan); });
   this->RecordChange(SizeOf(batch));
   this->RecordFound(this->Loaded->GetLoop().GetFound());
   this->RecordIterations(batch, watch.GetSeconds());
@@ -423,8 +475,8 @@ void LoadedRun::Measure()
   FlipReport& report = this->Report;
   if (report.BlockedByDeviation < 0)
   {
-    report.BlockedByDeviation =
-      this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().CountBlockedByDeviation(); });
+    this->OnBackend([&report](LoadedMesh& mesh)
+      { report.BlockedByDeviation = mesh.GetLoop().CountBlockedByDeviation(); });
     report.BlockedByShape = this->Found.BlockedByShape - report.BlockedByDeviation;
   }
   if (this->AreAnglesKnown)
@@ -433,8 +485,8 @@ void LoadedRun::Measure()
   }
   if (this->MeasuresAngles)
   {
-    KeepAnglesAfter(
-      this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().MeasureAngles(); }), report);
+    this->OnBackend(
+      [&report](LoadedMesh& mesh) { KeepAnglesAfter(mesh.GetLoop().MeasureAngles(), report); });
   }
   this->AreAnglesKnown = true;
   this->ListDefects();
@@ -443,8 +495,8 @@ void LoadedRun::Measure()
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
     if (report.GeometryUsed == GeometryKind::Surface)
     {
-      AddDefect(this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); }),
-        report.Defects);
+      this->OnBackend([&report](const LoadedMesh& mesh)
+        { AddDefect(mesh.FindTurnedTriangles(), report.Defects); });
     }
   }
 }

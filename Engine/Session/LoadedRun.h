@@ -9,6 +9,7 @@
 #include "ThreadBackend.h"
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <limits>
 #include <memory>
@@ -125,41 +126,15 @@ protected:
   /// The number of the first stage that may flip.
   std::size_t FindFlips() const;
 
+  using MeshWork = std::function<void(LoadedMesh&)>;
+
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
-  template <typename Function>
-  auto OnBackend(const Function& work)
-  {
-    try
-    {
-      const std::unique_ptr<DeviceScope> current = this->Loaded->MakeCurrent();
-      return work(*this->Loaded);
-    }
-    catch (const BackendUnavailable& error)
-    {
-      this->FallBack(error);
-    }
-    return work(*this->Loaded);
-  }
+  void OnBackend(const MeshWork& work);
 
   /// Does what OnBackend does, for a getter and if a mesh is loaded.
   /// @returns whether work was called and no observer stopped it.
-  template <typename Function>
-  bool TryOnBackend(const Function& work)
-  {
-    try
-    {
-      if (this->Loaded)
-      {
-        this->OnBackend(work);
-      }
-    }
-    catch (const RunAborted&)
-    {
-      this->Abort();
-    }
-    return this->Loaded != nullptr;
-  }
+  bool TryOnBackend(const MeshWork& work);
 
   /// Calls store(mesh), which writes to device memory, by TryOnBackend. @returns what it returns,
   /// or false if it was not called.

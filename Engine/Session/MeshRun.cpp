@@ -101,7 +101,7 @@ std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
   {
     return LoadOnCuda(*device, options, this->Building);
   }
-  return LoadOnCuda(this->Start.CopyToHost(), options, this->Building);
+  return LoadOnCuda(this->Start.GetOnHost(), options, this->Building);
 }
 
 void MeshRun::Reset()
@@ -140,13 +140,16 @@ void MeshRun::MeasureKeptEdges()
   FlipReport& report = this->Report;
   const EdgeCounts& edges = report.Edges;
   const bool isRunning = report.StopReason == StopReasonKind::Running;
-  report.KeepsSliver = !isRunning && edges.Feature + edges.Constraint > 0 &&
-    this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
+  report.KeepsSliver = false;
   report.HiddenByWinding = 0;
+  if (!isRunning && edges.Feature + edges.Constraint > 0)
+  {
+    this->OnBackend([&report](LoadedMesh& mesh) { report.KeepsSliver = mesh.KeepsSliver(); });
+  }
   if (!isRunning && edges.WronglyWound > 0)
   {
-    const auto count = [](LoadedMesh& mesh) { return mesh.CountHidden(); };
-    report.HiddenByWinding = this->OnBackend(count).WronglyWound;
+    this->OnBackend(
+      [&report](LoadedMesh& mesh) { report.HiddenByWinding = mesh.CountHidden().WronglyWound; });
   }
 }
 
@@ -225,8 +228,8 @@ void MeshRun::GoOnAt(MovedPoints points)
     start = this->Start.CopyToHost();
     moved.Points = points.View();
     start.Points = points.View();
-    follows = this->OnBackend([&](LoadedMesh& mesh)
-      { return mesh.MoveMesh(start, this->Insertion.GetOptions(this->Options)); });
+    this->OnBackend([&](LoadedMesh& mesh)
+      { follows = mesh.MoveMesh(start, this->Insertion.GetOptions(this->Options)); });
   }
   if (!follows)
   {
