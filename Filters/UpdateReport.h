@@ -164,21 +164,8 @@ public:
   };
 
   /// @param has which parts this update has. @param observer may be empty.
-  UpdatePlan(const std::array<bool, NumberOfParts>& has, ProgressObserver observer)
-    : Observer(std::move(observer))
-  {
-    // Each part's time in units of the engine's, measured once on one thread.
-    constexpr double Durations[] = { 0.4, 0.2, 0.3, 0.3, 0.9, 1.0, 0.05, 0.4 };
-    double sum = 0.0;
-    for (int part = 0; part < NumberOfParts; ++part)
-    {
-      if (has[part])
-      {
-        sum += Durations[part];
-      }
-      this->Ends[part + 1] = sum;
-    }
-  }
+  DELAUNAYFLIP_EXPORT UpdatePlan(
+    const std::array<bool, NumberOfParts>& has, ProgressObserver observer);
 
   ProgressObserver For(Part part) const
   {

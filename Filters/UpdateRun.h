@@ -14,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,17 @@ struct UpdateRequest
   ProgressObserver Progress; ///< Kept by the run.
   std::function<bool()> IsAborted; ///< Asked before a run begins.
 };
+
+/// What ForEachOption of a filter has to call so that options get the values of its properties.
+template <typename Options>
+auto SetterOf(Options& options)
+{
+  return [&options](const char*, const auto& property, auto member)
+  {
+    auto& option = options.*member;
+    option = static_cast<std::decay_t<decltype(option)>>(property);
+  };
+}
 
 /// A mesh that is flipped at once or, in a live update, a few iterations at a time, with an output
 /// after each step.

@@ -13,7 +13,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <type_traits>
 
 using namespace delaunayflip;
 
@@ -88,10 +87,24 @@ void vtkDelaunayFlip::RemoveAllRegions()
 }
 
 //------------------------------------------------------------------------------
+template <typename Visit>
+void vtkDelaunayFlip::ForEachOption(const Visit& visit) const
+{
+  visit("Geometry", this->Geometry, &FlipOptions::Geometry);
+  visit("Criterion", this->Criterion, &FlipOptions::Criterion);
+  visit("Tolerance", this->Tolerance, &FlipOptions::Tolerance);
+  visit("TieRule", this->TieRule, &FlipOptions::TieRule);
+  visit("FeatureAngle", this->FeatureAngle, &FlipOptions::FeatureAngle);
+  visit("MaximumDeviation", this->MaximumDeviation, &FlipOptions::MaximumDeviation);
+  visit("NumberOfPieces", this->NumberOfPieces, &FlipOptions::NumberOfPieces);
+  visit("TrackQuality", this->TrackQuality, &FlipOptions::TrackQuality);
+}
+
 FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints)
 {
   FlipRequest request;
-  this->FillRequest(request);
+  this->ForEachOption(SetterOf(request.Options));
+  this->FillRequest(request, request.Options);
   request.Input = mesh;
   request.Others = constraints;
   request.Settings.LinesAsConstraints = this->LinesAsConstraints;
@@ -99,13 +112,6 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   request.Settings.InsertConstraints = this->InsertConstraints;
   request.Settings.Triangulate = this->Triangulate;
   request.Settings.RegionArray = this->RegionArray;
-  const auto copy = [&request](const char*, const auto& property, auto member)
-  {
-    auto& option = request.Options.*member;
-    option = static_cast<std::decay_t<decltype(option)>>(property);
-  };
-  this->Superclass::ForEachOption<FlipOptions>(copy);
-  this->ForEachOption<FlipOptions>(copy);
   request.Settings.SizeArray = this->SizeArray;
   request.Settings.RegionSeeds = this->Regions;
   const bool hasAreas = std::any_of(this->Regions.begin(), this->Regions.end(),
@@ -156,7 +162,7 @@ void vtkDelaunayFlip::FlipLeaves(
 void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
+  this->ForEachOption([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
   os << indent << "RegionArray: " << this->RegionArray << "\n";
   os << indent << "Regions: " << this->Regions.size() << "\n";

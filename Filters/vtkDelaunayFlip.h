@@ -437,24 +437,6 @@ public:
   const char* GetGeometryReason() const;
 
 protected:
-#ifndef __VTK_WRAP__
-  /**
-   * Calls visit as the superclass does, for the properties of this class except Devices, a text.
-   */
-  template <typename Options, typename Visit>
-  void ForEachOption(const Visit& visit) const
-  {
-    visit("Geometry", this->Geometry, &Options::Geometry);
-    visit("Criterion", this->Criterion, &Options::Criterion);
-    visit("Tolerance", this->Tolerance, &Options::Tolerance);
-    visit("TieRule", this->TieRule, &Options::TieRule);
-    visit("FeatureAngle", this->FeatureAngle, &Options::FeatureAngle);
-    visit("MaximumDeviation", this->MaximumDeviation, &Options::MaximumDeviation);
-    visit("NumberOfPieces", this->NumberOfPieces, &Options::NumberOfPieces);
-    visit("TrackQuality", this->TrackQuality, &Options::TrackQuality);
-  }
-#endif
-
   vtkDelaunayFlip() = default;
   ~vtkDelaunayFlip() override = default;
 
@@ -490,6 +472,15 @@ protected:
   bool GenerateQuality = false;
 
 private:
+#ifndef __VTK_WRAP__
+  /**
+   * Calls visit(name, property, member) for each property of this class that is an option of the
+   * engine, but not for Devices, a text.
+   */
+  template <typename Visit>
+  void ForEachOption(const Visit& visit) const;
+#endif
+
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
   void operator=(const vtkDelaunayFlip&) = delete;
 };

@@ -542,8 +542,23 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
 }
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlipAlgorithm::FillRequest(UpdateRequest& request)
+template <typename Visit>
+void vtkDelaunayFlipAlgorithm::ForEachOption(const Visit& visit) const
 {
+  visit("Backend", this->Backend, &FlipOptions::Backend);
+  visit("DeviceId", this->DeviceId, &FlipOptions::Device);
+  visit("NumberOfThreads", this->NumberOfThreads, &FlipOptions::NumberOfThreads);
+  visit("MaximumIterations", this->MaximumIterations, &FlipOptions::MaximumIterations);
+  visit("MinimumAngle", this->MinimumAngle, &FlipOptions::MinimumAngle);
+  visit("MaximumArea", this->MaximumArea, &FlipOptions::MaximumArea);
+  visit("MaximumEdge", this->MaximumEdge, &FlipOptions::MaximumEdge);
+  visit("KeepBoundary", this->KeepBoundary, &FlipOptions::KeepBoundary);
+  visit("PointLimit", this->PointLimit, &FlipOptions::PointLimit);
+}
+
+void vtkDelaunayFlipAlgorithm::FillRequest(UpdateRequest& request, FlipOptions& options)
+{
+  this->ForEachOption(SetterOf(options));
   request.IterationsPerUpdate = this->IterationsPerUpdate;
   request.IsAborted = [this]() { return IsAbortRequested(this); };
   request.Progress = [this](double fraction)
@@ -566,7 +581,7 @@ void vtkDelaunayFlipAlgorithm::FillRequest(UpdateRequest& request)
 void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
+  this->ForEachOption([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
   os << indent << "SizeArray: " << this->SizeArray << "\n";
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";

@@ -26,6 +26,7 @@ namespace delaunayflip
 {
 class FlipSession;
 class RunKeeper;
+struct FlipOptions;
 struct FlipReport;
 struct MeshBlock;
 struct UpdateRequest;
@@ -386,28 +387,10 @@ protected:
   virtual bool HasTolerance() const { return false; }
 
   /**
-   * Calls visit(name, property, member) for each property that is an option of the engine. The
-   * member is that of the engine's `Options`.
+   * Gives a request what does not depend on the mesh: how many iterations an update makes, how it
+   * reports progress and is aborted, and the options that are properties of this class.
    */
-  template <typename Options, typename Visit>
-  void ForEachOption(const Visit& visit) const
-  {
-    visit("Backend", this->Backend, &Options::Backend);
-    visit("DeviceId", this->DeviceId, &Options::Device);
-    visit("NumberOfThreads", this->NumberOfThreads, &Options::NumberOfThreads);
-    visit("MaximumIterations", this->MaximumIterations, &Options::MaximumIterations);
-    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
-    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
-    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
-    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
-    visit("PointLimit", this->PointLimit, &Options::PointLimit);
-  }
-
-  /**
-   * Gives a request what does not depend on the mesh: how many iterations an update makes, and how
-   * it reports progress and is aborted.
-   */
-  void FillRequest(delaunayflip::UpdateRequest& request);
+  void FillRequest(delaunayflip::UpdateRequest& request, delaunayflip::FlipOptions& options);
 
   std::unique_ptr<delaunayflip::RunKeeper> Runs;
 
@@ -445,6 +428,14 @@ private:
   void Keep(const delaunayflip::UpdateSummary& summary);
   void Publish(const delaunayflip::UpdateSummary& summary);
   void RefuseInput(const std::string& why);
+#ifndef __VTK_WRAP__
+  /**
+   * Calls visit(name, property, member) for each property of this class that is an option of the
+   * engine.
+   */
+  template <typename Visit>
+  void ForEachOption(const Visit& visit) const;
+#endif
 
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.

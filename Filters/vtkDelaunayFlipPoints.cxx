@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <type_traits>
 
 using namespace delaunayflip;
 
@@ -215,10 +214,21 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(const MeshBlock
   return placed;
 }
 
+template <typename Visit>
+void vtkDelaunayFlipPoints::ForEachOption(const Visit& visit) const
+{
+  visit("Alpha", this->Alpha, &PointOptions::Alpha);
+  visit("LongestEdge", this->LongestEdge, &PointOptions::LongestEdge);
+  visit("PointTolerance", this->PointTolerance, &PointOptions::PointTolerance);
+  visit("SplitCrossings", this->SplitCrossings, &PointOptions::SplitCrossings);
+  visit("RingRule", this->RingRule, &PointOptions::RingRule);
+}
+
 TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
 {
   TriangulationRequest request;
-  this->FillRequest(request);
+  this->ForEachOption(SetterOf(request.Options));
+  this->FillRequest(request, request.Options);
   request.InputTime = input->GetMTime();
   request.Transform = this->Transform;
   if (this->Transform)
@@ -233,13 +243,6 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   request.Heights = static_cast<HeightsKind>(this->SegmentHeights);
   request.SizeArray = this->SizeArray;
   request.Regions = this->Regions;
-  const auto copy = [&request](const char*, const auto& property, auto member)
-  {
-    auto& option = request.Options.*member;
-    option = static_cast<std::decay_t<decltype(option)>>(property);
-  };
-  this->Superclass::ForEachOption<PointOptions>(copy);
-  this->ForEachOption<PointOptions>(copy);
   if (this->Projection == PROJECTION_SPHERE)
   {
     request.Options.Projection = ProjectionKind::Sphere;
@@ -382,7 +385,7 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Projection: " << this->Projection << "\n";
   os << indent << "Degrees: " << this->Degrees << "\n";
   os << indent << "Transform: " << this->Transform << "\n";
-  this->ForEachOption<PointOptions>([&](const char* name, const auto& value, auto)
+  this->ForEachOption([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
   os << indent << "Regions: " << this->Regions.size() << "\n";
   os << indent << "FirstHole: " << this->FirstHole << "\n";

@@ -400,19 +400,6 @@ protected:
 
 #ifndef __VTK_WRAP__
   /**
-   * Calls visit as the superclass does, for the properties of this class.
-   */
-  template <typename Options, typename Visit>
-  void ForEachOption(const Visit& visit) const
-  {
-    visit("Alpha", this->Alpha, &Options::Alpha);
-    visit("LongestEdge", this->LongestEdge, &Options::LongestEdge);
-    visit("PointTolerance", this->PointTolerance, &Options::PointTolerance);
-    visit("SplitCrossings", this->SplitCrossings, &Options::SplitCrossings);
-    visit("RingRule", this->RingRule, &Options::RingRule);
-  }
-
-  /**
    * Warns of latitudes beyond 90 degrees.
    * @param name what has the points, or "".
    */
@@ -472,6 +459,15 @@ protected:
   int KeepSession = KEEP_SESSION_AUTO;
 
 private:
+#ifndef __VTK_WRAP__
+  /**
+   * Calls visit(name, property, member) for each property of this class that is an option of the
+   * engine.
+   */
+  template <typename Visit>
+  void ForEachOption(const Visit& visit) const;
+#endif
+
   bool WantsToKeep();
 
   DefectHandler Handler;
