@@ -253,7 +253,6 @@ void LoadedRun::RecordChange(std::int64_t count)
   this->AreAnglesKnown = false;
 }
 
-/// Replaces a GPU that has failed by threads. To be called while the error is handled.
 void LoadedRun::OnBackend(const MeshWork& work)
 {
   try
@@ -285,6 +284,7 @@ bool LoadedRun::TryOnBackend(const MeshWork& work)
   return this->Loaded != nullptr;
 }
 
+/// Replaces a GPU that has failed by threads. To be called while the error is handled.
 void LoadedRun::FallBack(const BackendUnavailable& error)
 {
   if (this->Options.Backend == BackendKind::CUDA)
