@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DivideAndConquer.h"
 
+#include "CollectTriangles.h"
+#include "EdgeSides.h"
 #include "FlipReport.h"
 #include "PlaceTests.h"
 
@@ -10,26 +12,17 @@
 #include <atomic>
 #include <chrono>
 #include <future>
-#include <numeric>
 
 namespace delaunayflip
 {
 
 namespace
 {
-using Edge = std::uint32_t; ///< A directed edge; e ^ 1 runs the other way.
-constexpr Edge None = ~Edge(0);
 constexpr std::chrono::milliseconds Pause(50); ///< Between questions to the caller.
 /// One thread triangulates up to this many places. A second one would take longer to start than it
 /// saves.
 constexpr std::uint32_t MostForOneThread = 1 << 13;
-
-/// One side of an edge.
-struct Side
-{
-  std::uint32_t Origin; ///< A place; None: the edge is not used.
-  Edge Next, Previous; ///< Around the origin, counter-clockwise and clockwise.
-};
+constexpr std::uint32_t StepsPerCheck = 64; ///< A merge makes one edge per step.
 
 /// A point of a hull, and the edge of the hull that leaves it counter-clockwise.
 struct HullPoint
@@ -45,22 +38,42 @@ struct Candidate
   PlaceBeside Destination;
 };
 
-/// A set of points that has been triangulated.
+/// The edges that are not used of a set of points, linked by Next.
+struct FreeEdges
+{
+  Edge Head = None, Tail = None;
+};
+
+/// A strip, or a part of it, that has been triangulated. Its numbers fit into two registers, since
+/// most of these sets are tiny.
+struct Strip
+{
+  Edge LeavesFirst, LeavesLast; ///< The edges of the hull that leave the ends counter-clockwise.
+  FreeEdges Free;
+};
+
+/// Strips that have been triangulated and merged.
 struct Subset
 {
   HullPoint Ends[2][2]; ///< By axis: the first and the last point.
-  Edge FreeHead = None, FreeTail = None; ///< The edges that are not used, linked by Next.
+  FreeEdges Free;
 };
 
-class Triangulator
+/// The edges of the hull that two sets have not had before they were merged.
+struct Tangents
+{
+  Edge Lower, Upper; ///< Counter-clockwise, from the first set and from the second one.
+};
+
+class Triangulator : private EdgeSides
 {
 public:
   Triangulator(std::int64_t count, const DivideAndConquerCaller& caller)
-    : Caller(caller),
+    : EdgeSides(6 * count, caller.Host),
+      Caller(caller),
       Count(static_cast<std::uint32_t>(count)),
       Places(count, caller.Host),
-      Tests(this->Places.Data()),
-      Sides(6 * count, caller.Host)
+      Tests(this->Places.Data())
   {
   }
 
@@ -82,23 +95,29 @@ public:
     this->ForTasks(this->Count,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        this->Caller.GetPlaces(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end),
+          this->Places.Data() + begin);
+        const auto isInRange = [](const NumberedPlace& place) {
+          return IsInFilterRange({ place.U, place.V, 0.0 });
+        };
+        if (!std::all_of(this->Places.Data() + begin, this->Places.Data() + end, isInRange))
         {
-          const auto [u, v] = this->Caller.GetPlace(static_cast<std::int64_t>(i));
-          this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
-          if (!IsInFilterRange({ u, v, 0.0 }))
-          {
-            filtersApply = false;
-          }
+          filtersApply = false;
         }
       });
-    this->Tests.FiltersApply = filtersApply;
-    return this->Collect(this->Solve(0, this->Count, false));
+    if (!filtersApply)
+    {
+      this->Tests.StopFilters();
+    }
+    const Subset whole = this->SolveStrips(0, this->Count);
+    return CollectTriangles(*this, this->Places.Data(), whole.Ends[0][0].Leaving ^ 1,
+      this->Caller.Host,
+      [this](std::size_t size, const auto& work) { this->ForTasks(size, work); });
   }
 
 private:
   /// Compares by (x, y), or by (y, -x), which is the order after a quarter turn.
-  static bool IsBefore(const Place& p, const Place& q, int axis)
+  static bool IsBefore(const NumberedPlace& p, const NumberedPlace& q, int axis)
   {
     if (axis == 0)
     {
@@ -107,14 +126,7 @@ private:
     return p.V < q.V || (p.V == q.V && p.U > q.U);
   }
 
-  static bool IsLeftOf(const Place& p, const Place& q) { return IsBefore(p, q, 0); }
-
-  std::uint32_t Origin(Edge e) const { return this->Sides[e].Origin; }
-  std::uint32_t Destination(Edge e) const { return this->Sides[e ^ 1].Origin; }
-  Edge Next(Edge e) const { return this->Sides[e].Next; }
-  Edge Previous(Edge e) const { return this->Sides[e].Previous; }
-  /// The next edge around the left face.
-  Edge NextLeft(Edge e) const { return this->Previous(e ^ 1); }
+  static bool IsLeftOf(const NumberedPlace& p, const NumberedPlace& q) { return IsBefore(p, q, 0); }
 
   /// 1: a point is left of an edge; -1: right.
   int FindSide(Edge e, std::uint32_t point) const
@@ -123,91 +135,98 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  void Link(Edge e, Edge next)
-  {
-    this->Sides[e].Next = next;
-    this->Sides[next].Previous = e;
-  }
-
   /// An edge that is not used yet. Both of its sides are to be put around their origins.
-  Edge TakeEdge(Subset& set)
+  Edge TakeEdge(FreeEdges& free)
   {
-    const Edge e = set.FreeHead;
-    set.FreeHead = this->Next(e);
+    const Edge e = free.Head;
+    free.Head = this->Next(e);
     return e;
   }
 
-  void PutAlone(Edge e, std::uint32_t origin) { this->Sides[e] = { origin, e, e }; }
-
-  /// Puts a side between two others around its origin. Each number is written once, since a merge
-  /// makes so many edges that stores and the loads that wait for them take much of its time.
-  void PutBetween(Edge e, std::uint32_t origin, Edge previous, Edge next)
-  {
-    this->Sides[e] = { origin, next, previous };
-    this->Sides[previous].Next = e;
-    this->Sides[next].Previous = e;
-  }
-
   /// A new edge from the destination of `a` to the origin of `b`, left of both.
-  Edge Connect(Subset& set, Edge a, Edge b)
+  Edge Connect(FreeEdges& free, Edge a, Edge b)
   {
-    const Edge e = this->TakeEdge(set);
+    const Edge e = this->TakeEdge(free);
     this->PutBetween(e, this->Destination(a), this->NextLeft(a), a ^ 1);
     this->PutBetween(e ^ 1, this->Origin(b), b, this->Next(b));
     return e;
   }
 
-  void Delete(Subset& set, Edge e)
+  /// Makes an edge one that is not used.
+  void Release(FreeEdges& free, Edge e)
   {
-    this->Link(this->Previous(e), this->Next(e));
-    this->Link(this->Previous(e ^ 1), this->Next(e ^ 1));
     e &= ~Edge(1);
-    this->Sides[e] = { None, set.FreeHead, None };
-    if (set.FreeHead == None)
+    this->Sides[e].Origin = None;
+    this->Sides[e].Next = free.Head;
+    if (free.Head == None)
     {
-      set.FreeTail = e;
+      free.Tail = e;
     }
-    set.FreeHead = e;
+    free.Head = e;
   }
 
   //----------------------------------------------------------------------------
-  /// Triangulates a range of places. It is cut where a strip begins, and one strip is cut in the
-  /// order of x.
-  Subset Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
+  /// Triangulates a range of places, which is cut where a strip begins.
+  Subset SolveStrips(std::uint32_t begin, std::uint32_t end)
+  {
+    if (this->JoinsFew(begin, end))
+    {
+      return this->FindEnds(begin, end, this->SolveStrip(begin, end));
+    }
+    const std::uint32_t bounds[3] = { begin, this->FindStrip(begin, end), end };
+    Subset halves[2];
+    this->ForHalves(
+      bounds, [&](std::int64_t i) { halves[i] = this->SolveStrips(bounds[i], bounds[i + 1]); });
+    return this->Merge(halves[0], halves[1]);
+  }
+
+  /// Triangulates places of one strip, which are cut in the order of x.
+  Strip SolveStrip(std::uint32_t begin, std::uint32_t end)
   {
     const std::uint32_t size = end - begin;
-    isStrip = isStrip || this->JoinsFew(begin, end);
     if (size <= 3)
     {
       return this->SolveFew(begin, end);
     }
-    int axis = 0;
-    std::uint32_t bounds[3] = { begin, begin + size / 2, end };
-    if (!isStrip)
+    const std::uint32_t bounds[3] = { begin, begin + size / 2, end };
+    Strip halves[2];
+    this->ForHalves(
+      bounds, [&](std::int64_t i) { halves[i] = this->SolveStrip(bounds[i], bounds[i + 1]); });
+    const auto [left, right] = halves;
+    Strip strip{ left.LeavesFirst, right.LeavesLast, this->JoinFreeEdges(left.Free, right.Free) };
+    const Tangents made =
+      this->MergeHulls(strip.Free, this->Previous(left.LeavesLast), right.LeavesFirst);
+    if (this->Origin(made.Lower) == begin)
     {
-      axis = 1;
-      bounds[1] = this->FindStrip(begin, end);
+      strip.LeavesFirst = made.Lower;
     }
-    Subset halves[2];
-    const auto solve = [&](std::int64_t i)
+    if (this->Origin(made.Upper) == end - 1)
     {
-      const std::uint32_t half = bounds[i + 1] - bounds[i];
-      halves[i] = this->Solve(bounds[i], bounds[i + 1], isStrip);
-      if (size > MostForOneThread && half <= MostForOneThread)
-      {
-        this->Solved += half;
-      }
-    };
-    if (size > MostForOneThread)
-    {
-      this->Run(2, solve);
+      strip.LeavesLast = made.Upper;
     }
-    else
+    return strip;
+  }
+
+  /// Calls solve(0) and solve(1) for the two parts of a range, on threads if there is enough to do.
+  template <typename Solve>
+  void ForHalves(const std::uint32_t (&bounds)[3], const Solve& solve)
+  {
+    if (bounds[2] - bounds[0] <= MostForOneThread)
     {
       solve(0);
       solve(1);
+      return;
     }
-    return this->Merge(halves[0], halves[1], axis);
+    this->Run(2,
+      [&](std::int64_t i)
+      {
+        solve(i);
+        const std::uint32_t half = bounds[i + 1] - bounds[i];
+        if (half <= MostForOneThread)
+        {
+          this->Solved += half;
+        }
+      });
   }
 
   /// Joins the strips of a range to one if they are few. Then fewer edges are made and deleted than
@@ -237,7 +256,7 @@ private:
     {
       this->Join(begin, strip);
       this->Join(strip, end);
-      Place* const places = this->Places.Data();
+      NumberedPlace* const places = this->Places.Data();
       std::inplace_merge(places + begin, places + strip, places + end, IsLeftOf);
     }
   }
@@ -263,46 +282,58 @@ private:
   }
 
   /// Two or three sorted places.
-  Subset SolveFew(std::uint32_t begin, std::uint32_t end)
+  Strip SolveFew(std::uint32_t begin, std::uint32_t end)
   {
-    Subset set{ {}, 6 * begin, 6 * end - 2 };
-    for (Edge e = set.FreeHead; e < set.FreeTail; e += 2)
+    FreeEdges free{ 6 * begin, 6 * end - 2 };
+    for (Edge e = free.Head; e < free.Tail; e += 2)
     {
-      this->Sides[e] = { None, e + 2, None };
+      this->Sides[e].Origin = None;
+      this->Sides[e].Next = e + 2;
     }
-    this->Sides[set.FreeTail] = { None, None, None };
-    const Edge a = this->TakeEdge(set);
+    this->Sides[free.Tail].Origin = None;
+    this->Sides[free.Tail].Next = None;
+    const Edge a = this->TakeEdge(free);
     this->PutAlone(a, begin);
     this->PutAlone(a ^ 1, begin + 1);
-    std::array<Edge, 3> leaving{ a, a ^ 1, None }; // by point: the edge of the hull
-    if (end - begin == 3)
+    if (end - begin < 3)
     {
-      const Edge b = this->TakeEdge(set);
-      this->PutBetween(b, begin + 1, a ^ 1, a ^ 1);
-      this->PutAlone(b ^ 1, begin + 2);
-      const int orientation = this->Tests.Orient(begin, begin + 1, begin + 2);
-      leaving = { a, b, b ^ 1 }; // if the points are on one line
-      if (orientation > 0)
-      {
-        leaving[2] = this->Connect(set, b, a);
-      }
-      else if (orientation < 0)
-      {
-        const Edge c = this->Connect(set, b, a);
-        leaving = { c ^ 1, a ^ 1, b ^ 1 };
-      }
+      return { a, a ^ 1, free };
     }
-    for (int i = 0; i < 2; ++i)
+    const Edge b = this->TakeEdge(free);
+    this->PutBetween(b, begin + 1, a ^ 1, a ^ 1);
+    this->PutAlone(b ^ 1, begin + 2);
+    const int orientation = this->Tests.Orient(begin, begin + 1, begin + 2);
+    if (orientation == 0)
     {
-      set.Ends[i][0] = set.Ends[i][1] = { begin, leaving[0] };
-      for (std::uint32_t k = 1; k < end - begin; ++k)
-      {
-        const HullPoint point{ begin + k, leaving[k] };
-        this->TakeEnds(i, { point, point }, set);
-      }
+      return { a, b ^ 1, free };
+    }
+    const Edge c = this->Connect(free, b, a);
+    if (orientation > 0)
+    {
+      return { a, c, free };
+    }
+    return { c ^ 1, b ^ 1, free };
+  }
+
+  /// Finds the ends of a strip by a walk around its hull.
+  Subset FindEnds(std::uint32_t begin, std::uint32_t end, const Strip& strip) const
+  {
+    const HullPoint first{ begin, strip.LeavesFirst }, last{ end - 1, strip.LeavesLast };
+    Subset set{ { { first, last }, { first, first } }, strip.Free };
+    if (end - begin == this->Count) // it is not merged
+    {
+      return set;
+    }
+    for (Edge e = this->NextOfHull(first.Leaving); e != first.Leaving; e = this->NextOfHull(e))
+    {
+      const HullPoint point{ this->Origin(e), e };
+      this->TakeEnds(1, { point, point }, set);
     }
     return set;
   }
+
+  /// The edge of the hull that follows counter-clockwise.
+  Edge NextOfHull(Edge e) const { return this->Next(e ^ 1); }
 
   /// Replaces the ends of a set by others that are further out.
   void TakeEnds(int axis, const HullPoint (&ends)[2], Subset& set) const
@@ -321,31 +352,44 @@ private:
   }
 
   /// The edges of two sets that are not used become those of their union.
-  void JoinFreeEdges(const Subset& left, const Subset& right, Subset& set)
+  FreeEdges JoinFreeEdges(const FreeEdges& left, const FreeEdges& right)
   {
-    if (left.FreeHead == None)
+    if (left.Head == None)
     {
-      set.FreeHead = right.FreeHead;
-      set.FreeTail = right.FreeTail;
+      return right;
     }
-    else if (right.FreeHead != None)
+    if (right.Head == None)
     {
-      this->Sides[left.FreeTail].Next = right.FreeHead;
-      set.FreeTail = right.FreeTail;
+      return left;
     }
+    this->Sides[left.Tail].Next = right.Head;
+    return { left.Head, right.Tail };
   }
 
-  Subset Merge(const Subset& left, const Subset& right, int axis)
+  /// Merges strips with others above.
+  Subset Merge(const Subset& lower, const Subset& upper)
   {
-    Subset set = left;
+    Subset set = lower;
     for (int i = 0; i < 2; ++i)
     {
-      this->TakeEnds(i, right.Ends[i], set);
+      this->TakeEnds(i, upper.Ends[i], set);
     }
-    this->JoinFreeEdges(left, right, set);
-    // The edge of the hull that leaves the last point clockwise precedes the one that leaves it
-    // counter-clockwise.
-    Edge l = this->Previous(left.Ends[axis][1].Leaving), r = right.Ends[axis][0].Leaving;
+    set.Free = this->JoinFreeEdges(lower.Free, upper.Free);
+    const Tangents made = this->MergeHulls(
+      set.Free, this->Previous(lower.Ends[1][1].Leaving), upper.Ends[1][0].Leaving);
+    this->ReplaceEnds(made.Lower, set);
+    this->ReplaceEnds(made.Upper, set);
+    return set;
+  }
+
+  /// Makes the edges between two sets.
+  /// @param free the edges of both that are not used.
+  /// @param l the edge of the hull that leaves the last point of the first set clockwise. It
+  /// precedes the one that leaves it counter-clockwise.
+  /// @param r the edge of the hull that leaves the first point of the second set counter-clockwise.
+  Tangents MergeHulls(FreeEdges& freeEdges, Edge l, Edge r)
+  {
+    this->Check();
     for (;;) // the lower common tangent
     {
       if (this->FindSide(l, this->Origin(r)) > 0)
@@ -361,29 +405,35 @@ private:
         break;
       }
     }
-    Edge made = this->Connect(set, r ^ 1, l);
-    this->ReplaceEnds(made ^ 1, set);
-    for (;;)
+    FreeEdges free = freeEdges; // can be in registers
+    Edge made = this->Connect(free, r ^ 1, l);
+    const Edge lower = made ^ 1;
+    Base base = this->Tests.MakeBase(this->Origin(r), this->Origin(l));
+    for (std::uint32_t step = 1;; ++step)
     {
-      this->Check();
-      const Base base = this->Tests.MakeBase(this->Origin(made), this->Destination(made));
-      const Candidate onLeft = this->FindCandidate(set, made, base, true);
-      const Candidate onRight = this->FindCandidate(set, made, base, false);
+      if (step % StepsPerCheck == 0)
+      {
+        this->Check();
+      }
+      const Candidate onLeft = this->FindCandidate(free, made, base, true);
+      const Candidate onRight = this->FindCandidate(free, made, base, false);
       if (onLeft.E == None && onRight.E == None)
       {
-        this->ReplaceEnds(made, set); // `made` is now the upper tangent
-        return set;
+        freeEdges = free;
+        return { lower, made };
       }
       const bool takesRight = onLeft.E == None ||
         (onRight.E != None &&
           this->Tests.IsInCircle(base, onLeft.Destination, onRight.Destination));
       if (takesRight)
       {
-        made = this->Connect(set, onRight.E, made ^ 1);
+        made = this->Connect(free, onRight.E, made ^ 1);
+        base = this->Tests.MakeBase(onRight.Destination.At, base.To);
       }
       else
       {
-        made = this->Connect(set, made ^ 1, onLeft.E ^ 1);
+        made = this->Connect(free, made ^ 1, onLeft.E ^ 1);
+        base = this->Tests.MakeBase(base, onLeft.Destination);
       }
     }
   }
@@ -405,7 +455,7 @@ private:
 
   /// The next edge above the base on one side, after the edges that are not Delaunay any more have
   /// been deleted. Its edge is None if no edge is above the base.
-  Candidate FindCandidate(Subset& set, Edge baseEdge, const Base& base, bool isLeft)
+  Candidate FindCandidate(FreeEdges& free, Edge baseEdge, const Base& base, bool isLeft)
   {
     // Goes through the edges around this end of the base, until it comes back to the base.
     const auto follow = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
@@ -416,6 +466,7 @@ private:
     {
       return { None, place };
     }
+    const Edge first = e;
     for (Edge next = follow(e); next != last; next = follow(e))
     {
       const PlaceBeside nextPlace = this->Tests.See(base, this->Destination(next));
@@ -423,9 +474,15 @@ private:
       {
         break;
       }
-      this->Delete(set, e);
+      this->Unlink(e ^ 1);
+      this->Release(free, e);
       e = next;
       place = nextPlace;
+    }
+    if (e != first)
+    {
+      const Edge both[2] = { last, e };
+      this->Link(both[isLeft ? 0 : 1], both[isLeft ? 1 : 0]);
     }
     return { e, place };
   }
@@ -470,88 +527,15 @@ private:
   template <typename Work>
   void ForTasks(std::size_t size, const Work& work) const
   {
-    this->Run(static_cast<std::int64_t>((size + TaskSize - 1) / TaskSize),
+    this->Run(static_cast<std::int64_t>((size + SidesPerTask - 1) / SidesPerTask),
       [&](std::int64_t i)
-      { work(i, i * TaskSize, std::min<std::size_t>(size, (i + 1) * TaskSize)); });
+      { work(i, i * SidesPerTask, std::min<std::size_t>(size, (i + 1) * SidesPerTask)); });
   }
-
-  PointTriangles Collect(const Subset& whole) const
-  {
-    const auto sides = static_cast<Edge>(6 * std::size_t(this->Count));
-    // By side: the corner of the triangle on the left, if there is one.
-    Array<CornerId> cornerOf(sides, this->Caller.Host);
-    Array<bool> isLeading(sides, this->Caller.Host);
-    const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
-    const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
-    // Whether a side is the first one of its triangle. This has no branches, because they would be
-    // mispredicted half of the time.
-    const auto leads = [&](Edge e)
-    {
-      const Edge second = this->NextLeft(e), third = this->NextLeft(second);
-      const int isFirst = int(e < second) & int(e < third);
-      const int isTriangle = int(this->NextLeft(third) == e);
-      const int isInside = int(e != outside) & int(second != outside) & int(third != outside);
-      return (isFirst & isTriangle & isInside) != 0;
-    };
-    std::vector<std::int64_t> usedOf(sides / TaskSize + 1, 0), firstOf(sides / TaskSize + 2, 0);
-    this->ForTasks(sides,
-      [&](std::size_t task, std::size_t first, std::size_t end)
-      {
-        for (std::size_t i = first; i < end; ++i)
-        {
-          const auto e = static_cast<Edge>(i);
-          cornerOf[e] = NoCorner;
-          usedOf[task] += isUsed(e) ? 1 : 0;
-          isLeading[e] = isUsed(e) && leads(e);
-          firstOf[task + 1] += isLeading[e] ? 1 : 0;
-        }
-      });
-    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
-    const auto triangles = static_cast<std::size_t>(firstOf.back());
-    PointTriangles made{ Array<TriangleRecord>(triangles, this->Caller.Host),
-      std::accumulate(usedOf.begin(), usedOf.end(), -3 * firstOf.back()) };
-    const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
-    this->ForTasks(sides,
-      [&](std::size_t task, std::size_t begin, std::size_t end)
-      {
-        auto number = static_cast<TriangleId>(firstOf[task]);
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const auto first = static_cast<Edge>(i);
-          if (isLeading[first])
-          {
-            const Edge second = this->NextLeft(first), third = this->NextLeft(second);
-            cornerOf[first] = MakeCorner(number, 2);
-            cornerOf[second] = MakeCorner(number, 0);
-            cornerOf[third] = MakeCorner(number, 1);
-            made.Triangles[number] = { { placeOf(first), placeOf(second), placeOf(third) }, number,
-              { second ^ 1u, third ^ 1u, first ^ 1u }, 0 };
-            ++number;
-          }
-        }
-      });
-    this->ForTasks(triangles,
-      [&](std::size_t, std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          for (CornerId& other : made.Triangles[i].HalfEdges)
-          {
-            other = cornerOf[other];
-          }
-        }
-      });
-    return made;
-  }
-
-  /// How many sides or triangles a task has.
-  static constexpr std::size_t TaskSize = std::size_t(1) << 16;
 
   const DivideAndConquerCaller& Caller;
   const std::uint32_t Count;
-  Array<Place> Places; ///< In the order in which strips have been joined.
+  Array<NumberedPlace> Places; ///< In the order in which strips have been joined.
   PlaceTests Tests;
-  Array<Side> Sides; ///< By directed edge.
   std::atomic<bool> IsStopped{ false };
   bool AsksItself = false; ///< Then all is done on one thread.
   mutable std::uint32_t Calls = 0; ///< How often Ask was called.

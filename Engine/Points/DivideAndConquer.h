@@ -18,13 +18,19 @@
 namespace delaunayflip
 {
 
+struct NumberedPlace
+{
+  double U, V;
+  std::uint32_t Number;
+};
+
 /// What DivideAndConquer needs of its caller.
 struct DivideAndConquerCaller
 {
   /// Calls work(task) for task = 0 .. count - 1, on threads.
   std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)> Run;
-  /// Returns a place. It is called on any thread.
-  std::function<CoordinatePair<double>(std::int64_t)> GetPlace;
+  /// Stores the places with numbers from first to end - 1. It is called on any thread.
+  std::function<void(std::int64_t first, std::int64_t end, NumberedPlace* places)> GetPlaces;
   /// Receives the share of the work that is done, on the calling thread, every twentieth of a
   /// second. It may throw, which ends the work.
   std::function<void(double)> Tell;

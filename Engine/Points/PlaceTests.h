@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PLACE_TESTS_H
 #define DELAUNAYFLIP_PLACE_TESTS_H
 
+#include "DivideAndConquer.h"
 #include "ExactPredicates.h"
 #include "FilteredPredicates.h"
 
@@ -14,12 +15,6 @@
 
 namespace delaunayflip
 {
-
-struct Place
-{
-  double U, V;
-  std::uint32_t Number;
-};
 
 /// The directed edge between two sets on which the next triangle is made. Coordinates are relative
 /// to its origin, so that one test can use what an earlier one has computed.
@@ -36,13 +31,15 @@ struct PlaceBeside
   std::uint32_t At;
   double U, V, Square; ///< The offset from the base's origin, and its squared length.
   double Side; ///< Twice the area of the triangle with the base; > 0 if the place is on the left.
-  double Magnitude; ///< The sum of the magnitudes of the two products of Side.
 };
 
-/// Signs by filtered arithmetic, and by exact arithmetic where the filter cannot decide.
+/// Signs by filtered arithmetic, and by exact arithmetic where the filter cannot decide. What is
+/// inlined has a coarser bound that is found faster: the magnitudes of the products of two offsets
+/// sum up to half of the sum of their squares at most. It decides nearly always, so that its branch
+/// is predicted.
 struct PlaceTests
 {
-  explicit PlaceTests(const Place* places)
+  explicit PlaceTests(const NumberedPlace* places)
     : Places(places)
   {
   }
@@ -71,56 +68,85 @@ struct PlaceTests
     return { from, to, origin, u, v, u * u + v * v };
   }
 
+  /// From the same origin to another place.
+  Base MakeBase(const Base& base, const PlaceBeside& to) const
+  {
+    return { base.From, to.At, base.Origin, to.U, to.V, to.Square };
+  }
+
   PlaceBeside See(const Base& base, std::uint32_t place) const
   {
     const double u = this->Places[place].U - base.Origin.U;
     const double v = this->Places[place].V - base.Origin.V;
-    const double first = base.U * v, second = base.V * u;
-    return { place, u, v, u * u + v * v, first - second, std::fabs(first) + std::fabs(second) };
+    return { place, u, v, u * u + v * v, base.U * v - base.V * u };
   }
 
-  /// Whether the place is to the right of the base. As in IsInCircle, filters decide nearly always,
-  /// so that the branch is predicted.
+  /// Whether the place is to the right of the base.
   bool IsOnRight(const Base& base, const PlaceBeside& place) const
   {
-    if (std::fabs(place.Side) > GetBound(OrientationBound * place.Magnitude) && this->FiltersApply)
+    const double squares = base.Square + place.Square;
+    if (std::fabs(place.Side) > GetBound(this->SideBound * squares))
     {
       return place.Side < 0.0;
     }
-    return this->DecideSide(base.From, base.To, place.At) < 0;
+    return this->FindSide(base.From, base.To, place.At) < 0;
   }
 
   /// Whether `d` is in the circle through the ends of the base and `c`. The determinant is that of
   /// FilteredInCircle, relative to the origin of the base.
   bool IsInCircle(const Base& base, const PlaceBeside& c, const PlaceBeside& d) const
   {
-    const double first = c.U * d.V, second = c.V * d.U;
-    const double value = base.Square * (first - second) - c.Square * d.Side + d.Square * c.Side;
-    const double magnitude = base.Square * (std::fabs(first) + std::fabs(second)) +
-      c.Square * d.Magnitude + d.Square * c.Magnitude;
-    if (std::fabs(value) > GetBound(InCircleBound * magnitude) && this->FiltersApply)
+    const double value =
+      base.Square * (c.U * d.V - c.V * d.U) - c.Square * d.Side + d.Square * c.Side;
+    const double magnitude = base.Square * (c.Square + d.Square) + c.Square * d.Square;
+    if (std::fabs(value) > GetBound(this->CircleBound * magnitude))
     {
       return value > 0.0;
     }
     return this->DecideInCircle(base.From, base.To, c.At, d.At);
   }
 
-  const Place* Places;
-  bool FiltersApply = true;
+  /// Leaves all decisions to exact arithmetic.
+  void StopFilters()
+  {
+    this->FiltersApply = false;
+    this->SideBound = this->CircleBound = INFINITY;
+  }
 
 private:
   // What is needed seldom is not inlined, so that it takes no registers.
+  DELAUNAYFLIP_NO_INLINE int FindSide(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+  {
+    return this->Orient(a, b, c);
+  }
   DELAUNAYFLIP_NO_INLINE int DecideSide(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
-    return ExactOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
+    const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
+    const auto areEqual = [&](double PlanePoint::*axis)
+    { return points[0].*axis == points[1].*axis && points[1].*axis == points[2].*axis; };
+    if (areEqual(&PlanePoint::U) || areEqual(&PlanePoint::V)) // as in rows
+    {
+      return 0;
+    }
+    return ExactOrientation(points[0], points[1], points[2]);
   }
   DELAUNAYFLIP_NO_INLINE bool DecideInCircle(
     std::uint32_t from, std::uint32_t to, std::uint32_t c, std::uint32_t d) const
   {
     const PlanePoint points[4] = { this->GetPoint(to), this->GetPoint(from), this->GetPoint(c),
       this->GetPoint(d) };
+    const int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign > 0;
+    }
     return ExactInCircle(points, false) > 0;
   }
+
+  const NumberedPlace* Places;
+  bool FiltersApply = true;
+  /// They bound errors, relative to sums and products of squares.
+  double SideBound = 0.5 * OrientationBound, CircleBound = InCircleBound;
 };
 
 }
