@@ -18,6 +18,7 @@
 namespace delaunayflip
 {
 
+/// A place, and its number.
 struct NumberedPlace
 {
   double U, V;
