@@ -216,24 +216,6 @@ struct PointMeshBuilder
     return 100 * alone > 71 * samples;
   }
 
-  /// Whether most neighbours in a sample of the chains have the same x or the same y, as on a
-  /// lattice. There strips need few flips, and divide and conquer much exact arithmetic.
-  bool HasRows()
-  {
-    constexpr std::int64_t Sample = 1 << 6;
-    const ChainView<Real> chains = this->View();
-    const std::int64_t aligned = this->Device.template Sum<std::int64_t>(Sample,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-      {
-        const CoordinatePair<Real>* place = chains.Places + PickSample(i, chains.Count - 1);
-        if (place[0].U == place[1].U || place[0].V == place[1].V)
-        {
-          ++sum;
-        }
-      });
-    return 2 * aligned > Sample;
-  }
-
   /// Whether flips from the strips would take longer than divide and conquer. This depends on the
   /// points alone, so that every backend chooses the same way.
   /// @param onBoundary how many points are on the boundary of the strips.
@@ -243,7 +225,6 @@ struct PointMeshBuilder
   {
     constexpr std::int64_t Fewest = 256; // below, both take microseconds
     constexpr std::int64_t Most = 1 << 15; // below, flips on a GPU save little
-    constexpr std::int64_t MostInAnyOrder = 1 << 11; // below, flips on one thread save little, too
     const std::int64_t points = this->Mesh.Points.Count;
     if (points < Fewest)
     {
@@ -255,8 +236,7 @@ struct PointMeshBuilder
     }
     if (points < Most)
     {
-      return this->Mesh.Points.Strips == 1 || this->HasLongRuns() ||
-        (points < MostInAnyOrder && !this->HasRows());
+      return this->Mesh.Points.Strips == 1 || this->HasLongRuns();
     }
     const std::int64_t tenth = points / 10;
     return onBoundary >= 9 * tenth || (onBoundary < 2 * tenth && this->HasLongRuns());
@@ -406,8 +386,7 @@ EdgeMesh TriangulateByDivideAndConquer(const CoordinatePair<Real>* places, std::
 /// Triangulates the places of points by strips, or by divide and conquer if flips from the strips
 /// would be a long chain. Many points go to divide and conquer if nearly all of them are on the
 /// boundary of the strips, as along one curve, or if few of them are there and runs are long. Few
-/// points go to divide and conquer if runs are long or if there is one strip, and fewer points
-/// unless they are in rows.
+/// points go to divide and conquer if runs are long or if there is one strip.
 /// @param filtersApply as in IsLongForFlips.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, bool filtersApply, const Backend& backend,
