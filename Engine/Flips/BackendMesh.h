@@ -88,25 +88,25 @@ public:
     }
   }
 
-  void StoreUsedPoints(std::int64_t* ids) const override
+  void StoreUsedPoints(std::int64_t first, std::int64_t count, std::int64_t* ids) const override
   {
-    const std::int64_t count = this->Report.Points;
-    std::vector<VertexId> used(this->UsedPoint.Size());
-    this->Backend.Download(
-      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
-    constexpr std::int64_t Piece = 65536;
-    this->Backend.ForTasks((count + Piece - 1) / Piece,
-      [&](std::int64_t piece)
-      {
-        for (std::int64_t i = piece * Piece; i < std::min(count, (piece + 1) * Piece); ++i)
-        {
-          ids[i] = i;
-          if (!used.empty())
-          {
-            ids[i] = used[i] == NoVertex ? -1 : std::int64_t(used[i]);
-          }
-        }
-      });
+    const auto store = [=](std::int64_t i, VertexId used)
+    { ids[i] = used == NoVertex ? -1 : std::int64_t(used); };
+    const ThreadBackend& threads = this->Backend.GetThreads();
+    if (this->UsedPoint.Size() == 0)
+    {
+      threads.ForEach(count, [=](std::int64_t i) { ids[i] = first + i; });
+      return;
+    }
+    const VertexId* used = this->UsedPoint.Data() + first;
+    if constexpr (BackendT::IsOnHost)
+    {
+      threads.ForEach(count, [=](std::int64_t i) { store(i, used[i]); });
+    }
+    else
+    {
+      this->Backend.Receive(used, count, store);
+    }
   }
 
   void InsertSegments(

@@ -81,7 +81,8 @@ public:
   virtual void StoreOrderedTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
   virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
-  virtual void StoreUsedPoints(std::int64_t* ids) const = 0;
+  /// @param first the first of these points, the results of which are stored.
+  virtual void StoreUsedPoints(std::int64_t first, std::int64_t count, std::int64_t* ids) const = 0;
 
   /// Answers a query about a mesh from points that has triangles. The query's arrays are in the
   /// memory of the backend (CanAnswerInPlace) or of the host.

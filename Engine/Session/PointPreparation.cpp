@@ -478,7 +478,7 @@ void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
     return;
   }
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
-  mesh.StoreUsedPoints(used.data());
+  mesh.StoreUsedPoints(0, SizeOf(used), used.data());
   this->LeftOutRings.clear();
   std::map<std::int32_t, std::vector<std::size_t>> rings; // by their numbers, indices of segments
   for (std::int64_t i = 0; i < this->Prepared.NumberOfSegments; ++i)
@@ -542,11 +542,11 @@ void PreparedPoints::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) 
 {
   if (this->CountAll() == this->Caller.Points.Count && this->NearPoint.empty())
   {
-    mesh.StoreUsedPoints(ids);
+    mesh.StoreUsedPoints(0, this->CountAll(), ids);
     return;
   }
   std::vector<std::int64_t> used(this->CountAll());
-  mesh.StoreUsedPoints(used.data());
+  mesh.StoreUsedPoints(0, SizeOf(used), used.data());
   for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
   {
     ids[i] = used[this->GetNear(i)];

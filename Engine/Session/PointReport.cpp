@@ -102,20 +102,20 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
 /// Adds points that are not used, each kind with the ids of the first ones.
 void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedPoints& points)
 {
+  constexpr std::int64_t Piece = 1 << 14; // as many results at a time come from a GPU
   const PointCounts& counts = report.FromPoints;
-  std::vector<std::int64_t> used;
-  if (counts.NotFinite + counts.Repeated > 0)
-  {
-    used.resize(points.CountAll());
-    mesh.StoreUsedPoints(used.data());
-  }
   const auto add = [&](DefectKind kind, std::int64_t count, const auto& isListed)
   {
     Defect defect(kind, count);
     const std::int64_t most = std::min(count, MostNamedIds);
+    std::vector<std::int64_t> used(most > 0 ? std::min(Piece, report.Points) : 0);
     for (std::int64_t i = 0; SizeOf(defect.FirstIds) < most && i < report.Points; ++i)
     {
-      if (isListed(i))
+      if (i % Piece == 0)
+      {
+        mesh.StoreUsedPoints(i, std::min(Piece, report.Points - i), used.data());
+      }
+      if (isListed(i, used[i % Piece]))
       {
         defect.FirstIds.push_back(i);
       }
@@ -123,10 +123,12 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
     AddDefect(defect, report.Defects);
   };
   add(DefectKind::PointsNotFinite, counts.NotFinite,
-    [&](std::int64_t i) { return used[i] < 0 && !points.IsNear(i) && !points.IsRemoved(i); });
+    [&](std::int64_t i, std::int64_t used)
+    { return used < 0 && !points.IsNear(i) && !points.IsRemoved(i); });
   add(DefectKind::PointsRepeated, counts.Repeated,
-    [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
-  add(DefectKind::PointsTooNear, counts.TooNear, [&](std::int64_t i) { return points.IsNear(i); });
+    [](std::int64_t i, std::int64_t used) { return used >= 0 && used != i; });
+  add(DefectKind::PointsTooNear, counts.TooNear,
+    [&](std::int64_t i, std::int64_t) { return points.IsNear(i); });
 }
 }
 

@@ -119,7 +119,10 @@ public:
   {
     this->Engine->StoreNeighbors(neighbors);
   }
-  void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
+  void StoreUsedPoints(std::int64_t first, std::int64_t count, std::int64_t* ids) const override
+  {
+    this->Engine->StoreUsedPoints(first, count, ids);
+  }
   bool CanAnswerInPlace(const PlaceQuery& query) const override
   {
     return HasOrLacks(query.Places.Data()) && HasOrLacks(query.Triangles) &&

@@ -47,7 +47,8 @@ public:
     this->Mesh->StoreTriangles(
       MutableTriangleArray(this->Triangles.data(), this->Mesh->GetInputReport().Triangles));
     this->UsedPoints.resize(points.size());
-    this->Mesh->StoreUsedPoints(this->UsedPoints.data());
+    this->Mesh->StoreUsedPoints(
+      0, static_cast<std::int64_t>(this->UsedPoints.size()), this->UsedPoints.data());
   }
 
   std::unique_ptr<LoadedMesh> Mesh;
