@@ -100,6 +100,11 @@ vtkSmartPointer<vtkPoints> CopyPoints(vtkPoints* points)
   const vtkIdType count = points->GetNumberOfPoints();
   copy->SetNumberOfPoints(count);
   copy->GetData()->SetName(from->GetName());
+  copy->GetData()->CopyComponentNames(from);
+  if (from->HasInformation())
+  {
+    copy->GetData()->CopyInformation(from->GetInformation());
+  }
   const vtkIdType size = 3 * vtkIdType(from->GetDataTypeSize());
   const auto* const first = static_cast<const unsigned char*>(from->GetVoidPointer(0));
   auto* const to = static_cast<unsigned char*>(copy->GetVoidPointer(0));

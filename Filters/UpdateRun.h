@@ -50,7 +50,7 @@ struct UpdateRequest
   std::function<bool()> IsAborted; ///< Asked before a run begins.
 };
 
-/// What ForEachOption of a filter has to call so that options get the values of its properties.
+/// Returns a visitor for a filter's ForEachOption that copies its properties to these options.
 template <typename Options>
 auto SetterOf(Options& options)
 {

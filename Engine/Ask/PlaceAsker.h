@@ -86,6 +86,7 @@ public:
     if (this->Grid.Cells.Size() == 0)
     {
       this->Grid = BuildPlaceGrid(mesh, triangles, backend);
+      this->Removed = 0;
     }
     return this->Grid.View();
   }

@@ -256,7 +256,7 @@ private:
       plane = { this->Mesh.View(), this->Places, true };
       const std::int64_t added =
         growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
-      if (growth.HasOthers())
+      if (growth.HasUnfit())
       {
         return result;
       }

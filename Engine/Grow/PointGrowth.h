@@ -105,7 +105,7 @@ struct GrowthRound
     }
   }
 
-  DELAUNAYFLIP_HOST_DEVICE bool IsOther(std::int64_t i) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsUnfit(std::int64_t i) const
   {
     const GrowthState state = this->Items[i].State;
     return state == GrowthState::Outside || state == GrowthState::Refused;
@@ -139,14 +139,14 @@ struct GrowthSums
 {
   std::int64_t Winners = 0;
   std::int64_t OnBoundary = 0; ///< Those of them that split an edge of the boundary.
-  std::int64_t Others = 0; ///< Places that cannot be inserted: they are Outside or Refused.
+  std::int64_t Unfit = 0; ///< Places that cannot be inserted: they are Outside or Refused.
   std::int64_t Failed = 0; ///< Not 0 if a device could not decide.
 
   DELAUNAYFLIP_HOST_DEVICE GrowthSums& operator+=(const GrowthSums& part)
   {
     this->Winners += part.Winners;
     this->OnBoundary += part.OnBoundary;
-    this->Others += part.Others;
+    this->Unfit += part.Unfit;
     this->Failed += part.Failed;
     return *this;
   }
@@ -217,22 +217,23 @@ public:
 
   const GrowthItem* GetItems() const { return this->Items.Data(); }
 
-  /// Whether some places are outside of all triangles, or on fixed edges that must not be split.
-  /// Then none is inserted. This is known after the first call of InsertSome.
-  bool HasOthers() const { return this->AreOthers; }
+  /// Whether some places cannot be inserted, because they are outside of all triangles or on fixed
+  /// edges that must not be split. Then none is inserted. This is known after the first call of
+  /// InsertSome.
+  bool HasUnfit() const { return this->AreUnfit; }
 
   /// Inserts places that split no common triangle. Edges that have to be judged become candidates.
   /// @param vertices how many places the mesh has. The new ones' numbers follow.
   /// @param grow makes room for so many vertices, and returns a StoreVertex.
-  /// @returns how many. 0: none is waiting, or HasOthers.
+  /// @returns how many. 0: none is waiting, or HasUnfit.
   /// @throws BeyondDevice.
   template <typename Grow>
   std::int64_t InsertSome(EdgeMesh& mesh, PlaneMesh plane, std::int64_t vertices,
     const PlaceGridView& grid, const Grow& grow)
   {
     const GrowthSums added = this->FindWinners(mesh, plane, grid);
-    this->AreOthers = added.Others > 0;
-    if (added.Winners == 0 || this->AreOthers)
+    this->AreUnfit = added.Unfit > 0;
+    if (added.Winners == 0 || this->AreUnfit)
     {
       return 0;
     }
@@ -283,7 +284,7 @@ public:
         const bool wins = round.Items[i].State == GrowthState::Wins;
         sum.Winners += wins ? 1 : 0;
         sum.OnBoundary += wins && splitter.IsOnBoundary(round.Items[i].Place) ? 1 : 0;
-        sum.Others += round.IsOther(i) ? 1 : 0;
+        sum.Unfit += round.IsUnfit(i) ? 1 : 0;
         sum.Failed += i == 0 ? *round.Mesh.Failed : 0;
       });
     if (sums.Failed != 0)
@@ -341,7 +342,7 @@ private:
   const double* Places;
   std::int64_t Count;
   bool KeepsFixed;
-  bool AreOthers = false; ///< See HasOthers.
+  bool AreUnfit = false; ///< See HasUnfit.
   Array<GrowthItem> Items;
   /// By item, how many winners precede it; then how many of those on the boundary.
   Array<std::int64_t> Before;

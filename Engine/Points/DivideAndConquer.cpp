@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DivideAndConquer.h"
 
-#include "CollectTriangles.h"
 #include "EdgeSides.h"
 #include "FlipReport.h"
 #include "PlaceTests.h"
@@ -38,14 +37,14 @@ struct Candidate
   PlaceBeside Destination;
 };
 
-/// The edges that are not used of a set of points, linked by Next.
+/// The unused edges of a set of points, linked by Next.
 struct FreeEdges
 {
   Edge Head = None, Tail = None;
 };
 
-/// A strip, or a part of it, that has been triangulated. Its numbers fit into two registers, since
-/// most of these sets are tiny.
+/// A strip, or a part of it, that has been triangulated. Most of these are tiny, so this is no more
+/// than fits into two registers.
 struct Strip
 {
   Edge LeavesFirst, LeavesLast; ///< The edges of the hull that leave the ends counter-clockwise.
@@ -59,7 +58,7 @@ struct Subset
   FreeEdges Free;
 };
 
-/// The edges of the hull that two sets have not had before they were merged.
+/// The edges of the hull that a merge of two sets has made.
 struct Tangents
 {
   Edge Lower, Upper; ///< Counter-clockwise, from the first set and from the second one.
@@ -383,7 +382,7 @@ private:
   }
 
   /// Makes the edges between two sets.
-  /// @param free the edges of both that are not used.
+  /// @param freeEdges the unused edges of both.
   /// @param l the edge of the hull that leaves the last point of the first set clockwise. It
   /// precedes the one that leaves it counter-clockwise.
   /// @param r the edge of the hull that leaves the first point of the second set counter-clockwise.

@@ -36,21 +36,6 @@ void CheckIds(const std::int64_t* ids, std::int64_t count, std::int64_t points)
   }
 }
 
-/// The number of the lowest bit that is 1.
-int FindLowestBit(std::uint64_t word)
-{
-  int lowest = 0;
-  for (int half = 32; half > 0; half /= 2)
-  {
-    if ((word & ((std::uint64_t(1) << half) - 1)) == 0)
-    {
-      word >>= half;
-      lowest += half;
-    }
-  }
-  return lowest;
-}
-
 /// Lists each of some ids once, in ascending order. Bits take less time than a sort of 10,000 ids.
 /// @param points how many there are, more than any id.
 std::vector<VertexId> ListOnce(const std::int64_t* ids, std::int64_t count, std::int64_t points)
@@ -67,7 +52,7 @@ std::vector<VertexId> ListOnce(const std::int64_t* ids, std::int64_t count, std:
   {
     for (std::uint64_t word = words[i]; word != 0; word &= word - 1)
     {
-      once.push_back(static_cast<VertexId>(BitsOfWord * i + FindLowestBit(word)));
+      once.push_back(static_cast<VertexId>(BitsOfWord * i + __builtin_ctzll(word)));
     }
   }
   return once;

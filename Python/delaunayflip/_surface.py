@@ -309,7 +309,7 @@ def _count_points(places, triangles, size):
 
 
 def _list_points(places, ids, size):
-    """The same of the points with these ids, ascending."""
+    """What _count_points returns, of the points with these ids, which are ascending."""
     crowd = numpy.append(numpy.bincount(places[ids], minlength=size), 0)
     first = numpy.full(size + 1, -1)
     first[places[ids[::-1]]] = ids[::-1]

@@ -537,6 +537,7 @@ TEST(MovingPoints, KeepTheSessionWhereThereIsTime)
 TEST(MovingPoints, InLiveUpdates)
 {
   auto cloud = MakeCloud();
+  cloud->GetPoints()->GetData()->SetComponentName(0, "east");
   PointsFilter filter(cloud), atOnce(cloud);
   for (PointsFilter* each : { &filter, &atOnce })
   {
@@ -544,6 +545,7 @@ TEST(MovingPoints, InLiveUpdates)
   }
   filter->LiveUpdateOn();
   filter.Run();
+  EXPECT_STREQ("east", filter->GetOutput()->GetPoints()->GetData()->GetComponentName(0));
   Shake(cloud, 0.002); // in the middle of a run
   EXPECT_GT(RunToTheEnd(filter), 2);
   for (int frame = 0; frame < 3; ++frame)
